@@ -5,6 +5,7 @@
 #define HEARTH_SHARED_AMBIENT_OCCLUSION_H
 
 #include "formats/gpu_shared/language.h"
+#include "formats/gpu_shared/precision.h"
 
 // A cone of the moments of visibility (visibility_cone.h) already contains the surface's own horizon. At the
 // normal that the cone was baked for, the ambient occlusion is exactly the product cos(theta) sin^2(aperture)
@@ -27,31 +28,31 @@ HEARTH_CONSTANT uint kAmbientOcclusionOff = 3;
 /// 1].
 /// cos_theta     cosine of the angle between normal and axis, any angle
 /// cos_aperture  cosine of the half-angle, [0, 1]
-HEARTH_FUNCTION float clippedConeOcclusion(float cos_theta, float cos_aperture)
+HEARTH_FUNCTION Half clippedConeOcclusion(Half cos_theta, Half cos_aperture)
 {
-    float sin2_aperture = 1.0f - cos_aperture * cos_aperture;
-    float w2 = sin2_aperture - cos_theta * cos_theta;
+    Half sin2_aperture = 1.0f - cos_aperture * cos_aperture;
+    Half w2 = sin2_aperture - cos_theta * cos_theta;
     // the whole cone on one side of the horizon: theta + aperture <= pi / 2, or theta - aperture >= pi / 2
     if (w2 <= 0.0f)
         return max(cos_theta, 0.0f) * sin2_aperture;
-    float w = sqrt(w2);
+    Half w = sqrt(w2);
     // acos(-cot(theta) cot(aperture)). Its sine is w over the product of both sines: no quotient at the poles
-    float turn = arcTangent(w, -cos_theta * cos_aperture);
-    float share = cos_theta * sin2_aperture * turn - w * cos_aperture + arcTangent(w, cos_aperture);
+    Half turn = arcTangent(w, -cos_theta * cos_aperture);
+    Half share = cos_theta * sin2_aperture * turn - w * cos_aperture + arcTangent(w, cos_aperture);
     return max(share * (1.0f / 3.14159265f), 0.0f);
 }
 
 /// Approximate sin^2(a pi / 2), a in [0, 1], by a smoothstep. Error at most 0.010.
-HEARTH_FUNCTION float smoothstepSinSquared(float a)
+HEARTH_FUNCTION Half smoothstepSinSquared(Half a)
 {
     return a * a * (3.0f - 2.0f * a);
 }
 
 /// Approximate sin^2(a pi / 2), a in [0, 1], by two parabolas. Error at most 0.029. Continuous, unlike a^2
 /// and 1 - (1 - a)^2.
-HEARTH_FUNCTION float quadraticSinSquared(float a)
+HEARTH_FUNCTION Half quadraticSinSquared(Half a)
 {
-    float b = 1.0f - a;
+    Half b = 1.0f - a;
     return a < 0.5f ? 2.0f * a * a : 1.0f - 2.0f * b * b;
 }
 
@@ -62,12 +63,12 @@ HEARTH_FUNCTION float quadraticSinSquared(float a)
 /// aperture       half-angle in radians; the exact form ignores it
 /// cos_geometric  cosine between the axis and the normal that the cone was baked for
 /// cos_shading    cosine between the axis and the shading normal, bent by a normal map
-HEARTH_FUNCTION float ambientOcclusion(uint mode, float scale, float cos_aperture, float aperture,
-                                       float cos_geometric, float cos_shading)
+HEARTH_FUNCTION Half ambientOcclusion(uint mode, Half scale, Half cos_aperture, Half aperture,
+                                      Half cos_geometric, Half cos_shading)
 {
     if (mode == kAmbientOcclusionOff)
         return 1.0f;
-    float share;
+    Half share;
     if (mode == kAmbientOcclusionExact)
     {
         share = max(cos_geometric, 0.0f) * (1.0f - cos_aperture * cos_aperture);
@@ -77,11 +78,11 @@ HEARTH_FUNCTION float ambientOcclusion(uint mode, float scale, float cos_apertur
     }
     else
     {
-        float a = min(aperture * (2.0f / 3.14159265f), 1.0f);
-        float bend = cos_shading - cos_geometric;
+        Half a = min(aperture * (2.0f / 3.14159265f), 1.0f);
+        Half bend = cos_shading - cos_geometric;
         // away from the axis more light remains than the product says: the horizon hides half of a
         // hemisphere's loss
-        float cosine = cos_geometric + (bend < 0.0f ? bend * (1.0f - 0.5f * a * a * a) : bend);
+        Half cosine = cos_geometric + (bend < 0.0f ? bend * (1.0f - 0.5f * a * a * a) : bend);
         share = max(cosine, 0.0f) *
                 (mode == kAmbientOcclusionQuadratic ? quadraticSinSquared(a) : smoothstepSinSquared(a));
     }

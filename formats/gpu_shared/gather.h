@@ -6,6 +6,7 @@
 #define HEARTH_SHARED_GATHER_H
 
 #include "formats/gpu_shared/language.h"
+#include "formats/gpu_shared/precision.h"
 
 // Incident light at a point is stored as cosine-weighted moments of the radiance over the hemisphere of its
 // normal n: the mean m0, which is irradiance / pi, and m1, the component across n of the mean of radiance
@@ -83,18 +84,18 @@ struct GatherView
 /// Weights of the sharp lobe, the wide lobe and the cosine-weighted mean in a surface's reflection.
 struct GatherLobeShares
 {
-    float sharp;
-    float wide;
-    float cosine;
+    Half sharp;
+    Half wide;
+    Half cosine;
 };
 
 /// Return the weights, linear between kGatherSharpRoughness, kGatherWideRoughness and 1, where a lobe is
 /// close to the cosine's. Below kGatherSharpRoughness the sharp lobe has all the weight.
 /// roughness  perceptual
-HEARTH_FUNCTION GatherLobeShares gatherLobeShares(float roughness)
+HEARTH_FUNCTION GatherLobeShares gatherLobeShares(Half roughness)
 {
-    float to_wide = (roughness - kGatherSharpRoughness) / (kGatherWideRoughness - kGatherSharpRoughness);
-    float to_cosine = (roughness - kGatherWideRoughness) / (1.0f - kGatherWideRoughness);
+    Half to_wide = (roughness - kGatherSharpRoughness) / (kGatherWideRoughness - kGatherSharpRoughness);
+    Half to_cosine = (roughness - kGatherWideRoughness) / (1.0f - kGatherWideRoughness);
     GatherLobeShares shares;
     shares.cosine = min(max(to_cosine, 0.0f), 1.0f);
     shares.sharp = 1.0f - min(max(to_wide, 0.0f), 1.0f);

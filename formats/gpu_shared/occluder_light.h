@@ -17,9 +17,9 @@ HEARTH_SHARED_BEGIN
 /// direction, plus w.
 struct OccluderLight
 {
-    Float4 red;
-    Float4 green;
-    Float4 blue;
+    Half4 red;
+    Half4 green;
+    Half4 blue;
 };
 
 /// Rows of 16 bytes behind the lights in their buffer: three for each radiance transfer, the OccluderLight
@@ -35,20 +35,20 @@ HEARTH_CONSTANT uint kNoTransfer = 0xFFFFFFFFu;
 
 /// Return the radiance from a direction.
 /// direction  at most unit: a mean of directions gets their mean radiance
-HEARTH_FUNCTION Float3 occluderRadiance(HEARTH_IN(OccluderLight) light, Float3 direction)
+HEARTH_FUNCTION Half3 occluderRadiance(HEARTH_IN(OccluderLight) light, Half3 direction)
 {
-    Float3 radiance = Float3(light.red.w, light.green.w, light.blue.w) +
-                      Float3(light.red.x, light.green.x, light.blue.x) * direction.x +
-                      Float3(light.red.y, light.green.y, light.blue.y) * direction.y +
-                      Float3(light.red.z, light.green.z, light.blue.z) * direction.z;
+    Half3 radiance = Float3(light.red.w, light.green.w, light.blue.w) +
+                     Float3(light.red.x, light.green.x, light.blue.x) * direction.x +
+                     Float3(light.red.y, light.green.y, light.blue.y) * direction.y +
+                     Float3(light.red.z, light.green.z, light.blue.z) * direction.z;
     return Float3(max(radiance.x, 0.0f), max(radiance.y, 0.0f), max(radiance.z, 0.0f));
 }
 
 /// Return the mean of the occluded directions of a hemisphere.
 /// normal  of the hemisphere, whose visible part has the moments m0 and m1
-HEARTH_FUNCTION Float3 meanOccludedDirection(float m0, Float3 m1, Float3 normal)
+HEARTH_FUNCTION Half3 meanOccludedDirection(Half m0, Half3 m1, Half3 normal)
 {
-    float solid_angle = 2.0f * kVisibilityPi - m0;
+    Half solid_angle = 2.0f * kVisibilityPi - m0;
     // a noisy direction of next to nothing does not matter
     return (normal * kVisibilityPi - m1) * (1.0f / max(solid_angle, 0.01f));
 }

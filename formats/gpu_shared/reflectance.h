@@ -5,6 +5,7 @@
 #define HEARTH_SHARED_REFLECTANCE_H
 
 #include "formats/gpu_shared/language.h"
+#include "formats/gpu_shared/precision.h"
 
 // A lobe of height-correlated masking reflects f0 * scale + bias after one scattering, with Schlick's Fresnel
 // term (B. Karis, "Real shading in Unreal Engine 4", 2013). A table has both for 64 cosines and 32
@@ -26,34 +27,34 @@ HEARTH_CONSTANT uint kReflectanceColumns = 64;
 HEARTH_CONSTANT uint kReflectanceRows = 32;
 
 /// Roughness of the first row; a smaller roughness is clamped to it, as in shading.
-HEARTH_CONSTANT float kMinReflectanceRoughness = 0.045f;
+HEARTH_CONSTANT Half kMinReflectanceRoughness = 0.045f;
 
 /// Reflectance at normal incidence of dielectrics with an index of refraction of 1.5, and of clear coats.
-HEARTH_CONSTANT float kDielectricF0 = 0.04f;
+HEARTH_CONSTANT Half kDielectricF0 = 0.04f;
 
 /// Reflectance of a dielectric: at normal incidence, and at grazing angles.
 struct DielectricReflectance
 {
-    Float3 f0;
-    float f90;
+    Half3 f0;
+    Half f90;
 };
 
 /// Values of the table.
 struct LobeTotal
 {
-    float scale;
-    float bias;
-    float turn;           ///< mean direction of the lobe: (1 - turn) mirror direction + turn normal
-    float cos_half_angle; ///< [0, 1]
+    Half scale;
+    Half bias;
+    Half turn;           ///< mean direction of the lobe: (1 - turn) mirror direction + turn normal
+    Half cos_half_angle; ///< [0, 1]
 };
 
 /// Return the coordinates of a lookup, each in [0, 1], the first node at 0, the last at 1: x is the cosine, y
 /// the roughness.
 /// roughness  perceptual
 /// n_dot_v    cosine between normal and view, [0, 1]
-HEARTH_FUNCTION Float2 reflectanceCoordinates(float roughness, float n_dot_v)
+HEARTH_FUNCTION Half2 reflectanceCoordinates(Half roughness, Half n_dot_v)
 {
-    float rough = (roughness - kMinReflectanceRoughness) / (1.0f - kMinReflectanceRoughness);
+    Half rough = (roughness - kMinReflectanceRoughness) / (1.0f - kMinReflectanceRoughness);
     return Float2(sqrt(sqrt(min(max(n_dot_v, 0.0f), 1.0f))), sqrt(min(max(rough, 0.0f), 1.0f)));
 }
 
@@ -77,7 +78,7 @@ HEARTH_FUNCTION DielectricReflectance defaultDielectric()
 /// Return the reflectance of a dielectric by KHR_materials_specular.
 /// f0        reflectance of the index of refraction times the specular colour
 /// specular  strength, [0, 1]
-HEARTH_FUNCTION DielectricReflectance specularDielectric(Float3 f0, float specular)
+HEARTH_FUNCTION DielectricReflectance specularDielectric(Half3 f0, Half specular)
 {
     DielectricReflectance found;
     found.f0 = Float3(min(f0.x, 1.0f), min(f0.y, 1.0f), min(f0.z, 1.0f)) * specular;
@@ -87,14 +88,14 @@ HEARTH_FUNCTION DielectricReflectance specularDielectric(Float3 f0, float specul
 
 /// Return the share of constant light that a lobe reflects after one scattering.
 /// f90  reflectance at grazing angles
-HEARTH_FUNCTION Float3 onceScattered(Float3 f0, float f90, HEARTH_IN(LobeTotal) lobe)
+HEARTH_FUNCTION Half3 onceScattered(Half3 f0, Half f90, HEARTH_IN(LobeTotal) lobe)
 {
-    float bias = lobe.bias * f90;
+    Half bias = lobe.bias * f90;
     return f0 * lobe.scale + Float3(bias, bias, bias);
 }
 
 /// Return the share of constant light that a lobe reflects, with several scatterings.
-HEARTH_FUNCTION Float3 lobeAlbedo(Float3 f0, float f90, HEARTH_IN(LobeTotal) lobe)
+HEARTH_FUNCTION Half3 lobeAlbedo(Half3 f0, Half f90, HEARTH_IN(LobeTotal) lobe)
 {
     return onceScattered(f0, f90, lobe) *
            (Float3(1.0f, 1.0f, 1.0f) + f0 * (1.0f / (lobe.scale + lobe.bias) - 1.0f));
@@ -102,7 +103,7 @@ HEARTH_FUNCTION Float3 lobeAlbedo(Float3 f0, float f90, HEARTH_IN(LobeTotal) lob
 
 /// Return what a lobe of one scattering is multiplied by to reflect its albedo.
 /// once  what it reflects after one scattering; 0 where a smooth black surface is seen along its normal
-HEARTH_FUNCTION float scatteringFactor(float albedo, float once)
+HEARTH_FUNCTION Half scatteringFactor(float albedo, float once)
 {
     return albedo / max(once, 1e-7f);
 }
@@ -110,27 +111,27 @@ HEARTH_FUNCTION float scatteringFactor(float albedo, float once)
 /// Directional albedos of a surface.
 struct SurfaceAlbedo
 {
-    Float3 diffuse;
-    Float3 specular;
-    Float3 scattering; ///< factor of the lobe that adds the light of several scatterings
-    Float3 f0;
-    float f90;
+    Half3 diffuse;
+    Half3 specular;
+    Half3 scattering; ///< factor of the lobe that adds the light of several scatterings
+    Half3 f0;
+    Half f90;
 };
 
 /// Return the albedos of a mixture of dielectric and metal.
 /// base  base colour
-HEARTH_FUNCTION SurfaceAlbedo surfaceAlbedo(Float3 base, float metallic,
+HEARTH_FUNCTION SurfaceAlbedo surfaceAlbedo(Half3 base, Half metallic,
                                             HEARTH_IN(DielectricReflectance) dielectric,
                                             HEARTH_IN(LobeTotal) lobe)
 {
-    Float3 reflected = lobeAlbedo(dielectric.f0, dielectric.f90, lobe);
+    Half3 reflected = lobeAlbedo(dielectric.f0, dielectric.f90, lobe);
     SurfaceAlbedo albedo;
     albedo.f0 = base * metallic + dielectric.f0 * (1.0f - metallic);
     // a constant of most pipelines: they leave the mixture out
     albedo.f90 = dielectric.f90 == 1.0f ? 1.0f : metallic + dielectric.f90 * (1.0f - metallic);
     albedo.specular = lobeAlbedo(base, 1.0f, lobe) * metallic + reflected * (1.0f - metallic);
     albedo.diffuse = base * ((1.0f - metallic) * (1.0f - max(max(reflected.x, reflected.y), reflected.z)));
-    Float3 once = onceScattered(albedo.f0, albedo.f90, lobe);
+    Half3 once = onceScattered(albedo.f0, albedo.f90, lobe);
     albedo.scattering =
         Float3(scatteringFactor(albedo.specular.x, once.x), scatteringFactor(albedo.specular.y, once.y),
                scatteringFactor(albedo.specular.z, once.z));

@@ -23,25 +23,25 @@ using std::pow;
 
 /// Roughness of the first row; a smaller roughness is clamped to it. Smoother sheen is seen only within 6
 /// degrees of the horizon.
-HEARTH_CONSTANT float kMinSheenRoughness = 0.07f;
+HEARTH_CONSTANT Half kMinSheenRoughness = 0.07f;
 
 /// Values of the table.
 struct SheenTotal
 {
-    float albedo;         ///< share of constant light that a white lobe reflects; may exceed 1
-    float lean;           ///< sine of the angle from the normal to the mean direction, towards the view
-    float cos_half_angle; ///< [0, 1], of the cone from which the lobe gets its light
+    Half albedo;         ///< share of constant light that a white lobe reflects; may exceed 1
+    Half lean;           ///< sine of the angle from the normal to the mean direction, towards the view
+    Half cos_half_angle; ///< [0, 1], of the cone from which the lobe gets its light
 };
 
-HEARTH_FUNCTION float clampSheenRoughness(float roughness)
+HEARTH_FUNCTION Half clampSheenRoughness(Half roughness)
 {
     return min(max(roughness, kMinSheenRoughness), 1.0f);
 }
 
 /// Return the coordinates of a lookup, as reflectanceCoordinates().
-HEARTH_FUNCTION Float2 sheenCoordinates(float roughness, float n_dot_v)
+HEARTH_FUNCTION Half2 sheenCoordinates(Half roughness, Half n_dot_v)
 {
-    float rough = (clampSheenRoughness(roughness) - kMinSheenRoughness) / (1.0f - kMinSheenRoughness);
+    Half rough = (clampSheenRoughness(roughness) - kMinSheenRoughness) / (1.0f - kMinSheenRoughness);
     return Float2(sqrt(sqrt(min(max(n_dot_v, 0.0f), 1.0f))), sqrt(rough));
 }
 
@@ -64,13 +64,13 @@ HEARTH_FUNCTION float sheenLobe(float roughness, float n_dot_h, float n_dot_l, f
 }
 
 /// Return the factor that limits a lobe's albedo to 1.
-HEARTH_FUNCTION float sheenLimit(HEARTH_IN(SheenTotal) total)
+HEARTH_FUNCTION Half sheenLimit(HEARTH_IN(SheenTotal) total)
 {
     return 1.0f / max(total.albedo, 1.0f);
 }
 
 /// Return the share of light that sheen leaves to what is below.
-HEARTH_FUNCTION float belowSheen(Float3 color, HEARTH_IN(SheenTotal) total)
+HEARTH_FUNCTION Half belowSheen(Half3 color, HEARTH_IN(SheenTotal) total)
 {
     return 1.0f - max(max(color.x, color.y), color.z) * min(total.albedo, 1.0f);
 }

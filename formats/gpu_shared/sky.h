@@ -5,6 +5,7 @@
 #define HEARTH_SHARED_SKY_H
 
 #include "formats/gpu_shared/language.h"
+#include "formats/gpu_shared/precision.h"
 
 // The radiance depends on the height of the direction alone, the sine of its elevation. It is
 //     ground + (horizon - ground) above + (zenith - horizon) above high,
@@ -54,15 +55,18 @@ HEARTH_FUNCTION Float3 skyRadiance(HEARTH_IN(Sky) sky, Float3 direction)
 
 /// Return the mean radiance over a cone.
 /// means  of skyAbove (x) and skyAbove * skyHigh (y), as the table has them
-HEARTH_FUNCTION Float3 skyMeanRadiance(HEARTH_IN(Sky) sky, Float2 means)
+HEARTH_FUNCTION Half3 skyMeanRadiance(HEARTH_IN(Sky) sky, Half2 means)
 {
-    return sky.ground + (sky.horizon - sky.ground) * means.x + (sky.zenith - sky.horizon) * means.y;
+    Half3 ground = sky.ground;
+    Half3 horizon = sky.horizon;
+    Half3 zenith = sky.zenith;
+    return ground + (horizon - ground) * means.x + (zenith - horizon) * means.y;
 }
 
 /// Return the coordinates of a lookup, each in [0, 1], the first node at 0, the last at 1.
 /// height          of the cone's axis, [-1, 1]
 /// cos_half_angle  [0, 1]
-HEARTH_FUNCTION Float2 skyTableCoordinates(float height, float cos_half_angle)
+HEARTH_FUNCTION Half2 skyTableCoordinates(Half height, Half cos_half_angle)
 {
     // linear in the half-angle, about
     return Float2(min(max(0.5f + 0.5f * height, 0.0f), 1.0f),

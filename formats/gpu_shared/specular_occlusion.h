@@ -9,6 +9,7 @@
 #define HEARTH_SHARED_SPECULAR_OCCLUSION_H
 
 #include "formats/gpu_shared/language.h"
+#include "formats/gpu_shared/precision.h"
 
 HEARTH_SHARED_BEGIN
 
@@ -68,15 +69,15 @@ HEARTH_FUNCTION float specularCap(float cos_half_angle, float cos_beta, float wi
 /// Coefficients found by hearth-specular --fit. alpha is GGX's, grazing is 1 - n_dot_v.
 struct SpecularFit
 {
-    float width_alpha; ///< width of the lobe / alpha = 1 + ...
-    float width_grazing;
-    float width_both;
+    Half width_alpha; ///< width of the lobe / alpha = 1 + ...
+    Half width_grazing;
+    Half width_both;
     /// Shift of the lobe's middle from the reflection vector to the normal, / alpha = turn + ...
-    float turn;
-    float turn_alpha;
-    float turn_grazing;
-    float turn_both;
-    float loss; ///< part of a cone that reaches below the horizon and is lost, / alpha
+    Half turn;
+    Half turn_alpha;
+    Half turn_grazing;
+    Half turn_both;
+    Half loss; ///< part of a cone that reaches below the horizon and is lost, / alpha
 };
 
 /// Fit to 20000 configurations with height-correlated masking. rms error .020 there; of the table, through
@@ -84,23 +85,23 @@ struct SpecularFit
 HEARTH_CONSTANT SpecularFit kSpecularFit =
     SpecularFit(-0.4416f, 0.1565f, -0.0127f, -0.5816f, 2.0072f, 2.1856f, -2.8820f, 0.3663f);
 
-HEARTH_FUNCTION float evaluateSpecularFit(HEARTH_IN(SpecularFit) fit, float cos_aperture, float roughness,
-                                          float n_dot_v, float n_dot_axis, float r_dot_axis)
+HEARTH_FUNCTION Half evaluateSpecularFit(HEARTH_IN(SpecularFit) fit, float cos_aperture, float roughness,
+                                         float n_dot_v, float n_dot_axis, float r_dot_axis)
 {
     float cosine = specularClamp(cos_aperture, 0.0f, 1.0f);
-    float facing = specularClamp(n_dot_v, 0.0f, 1.0f);
-    float grazing = 1.0f - facing;
-    float rough = specularClamp(roughness, kMinSpecularRoughness, 1.0f);
-    float alpha = rough * rough;
-    float width =
+    Half facing = specularClamp(n_dot_v, 0.0f, 1.0f);
+    Half grazing = 1.0f - facing;
+    Half rough = specularClamp(roughness, kMinSpecularRoughness, 1.0f);
+    Half alpha = rough * rough;
+    Half width =
         alpha * (1.0f + fit.width_alpha * alpha + (fit.width_grazing + fit.width_both * alpha) * grazing);
-    float turn =
+    Half turn =
         alpha * (fit.turn + fit.turn_alpha * alpha + (fit.turn_grazing + fit.turn_both * alpha) * grazing);
 
     // the lobe's middle lies between R and N; its cosines with axis and normal follow
-    float to_normal = specularClamp(turn, 0.0f, 1.0f);
-    float to_mirror = 1.0f - to_normal;
-    float shrink =
+    Half to_normal = specularClamp(turn, 0.0f, 1.0f);
+    Half to_mirror = 1.0f - to_normal;
+    Half shrink =
         1.0f / sqrt(max(to_mirror * to_mirror + to_normal * to_normal + 2.0f * to_mirror * to_normal * facing,
                         0.0625f));
     float middle_axis =
@@ -118,8 +119,8 @@ HEARTH_FUNCTION float evaluateSpecularFit(HEARTH_IN(SpecularFit) fit, float cos_
 /// roughness     0 to 1; GGX alpha is its square
 /// n_dot_v, n_dot_axis, r_dot_axis  cosines between the normal, the view, the cone's axis and the reflection
 ///                                  vector
-HEARTH_FUNCTION float specularOcclusionFit(float cos_aperture, float roughness, float n_dot_v,
-                                           float n_dot_axis, float r_dot_axis)
+HEARTH_FUNCTION Half specularOcclusionFit(float cos_aperture, float roughness, float n_dot_v,
+                                          float n_dot_axis, float r_dot_axis)
 {
     return evaluateSpecularFit(kSpecularFit, cos_aperture, roughness, n_dot_v, n_dot_axis, r_dot_axis);
 }

@@ -6,6 +6,7 @@
 #ifndef HEARTH_SHARED_VISIBILITY_CONE_H
 #define HEARTH_SHARED_VISIBILITY_CONE_H
 
+#include "formats/gpu_shared/precision.h"
 #include "formats/gpu_shared/vertex_layout.h"
 
 HEARTH_SHARED_BEGIN
@@ -26,10 +27,10 @@ struct VisibilityMoments
 /// other light is occluded.
 struct VisibilityCone
 {
-    Float3 axis;        ///< unit
-    float cos_aperture; ///< [0, 1]
-    float aperture;     ///< half-angle, radians, [0, pi / 2]
-    float scale;        ///< [0, 1]
+    Half3 axis;         ///< unit
+    float cos_aperture; ///< [0, 1]; full, because narrow cones have a cosine next to 1
+    Half aperture;      ///< half-angle, radians, [0, pi / 2]
+    Half scale;         ///< [0, 1]
 };
 
 // Code of a vertex. The length x = min(|m1| / pi, 1) follows from the first three numbers:

@@ -44,9 +44,10 @@ uint encodeShares(vec3 m1, vec3 m0)
     return uint(code.r | code.g << 10 | code.b << 20);
 }
 
-vec3 decodeShares(uint code)
+mediump vec3 decodeShares(uint code)
 {
-    return vec3(ivec3(code << 22, code << 12, code << 2) >> 22) / 511.0;
+    mediump vec3 shares = vec3(ivec3(code << 22, code << 12, code << 2) >> 22);
+    return shares / 511.0;
 }
 
 GatherTexels encodeGatherTexels(GatherPoint point)

@@ -21,7 +21,7 @@ struct GiSample
 // position  relative to the eye
 // normal    shading normal, unit
 // roughness perceptual
-GiSample sampleGi(vec2 pixel, vec3 position, vec3 normal, float roughness)
+GiSample sampleGi(vec2 pixel, vec3 position, vec3 normal, mediump float roughness)
 {
     vec2 at = pixel / float(kGatherTilePixels) - 0.5;
     vec2 low = floor(at);
@@ -49,8 +49,11 @@ GiSample sampleGi(vec2 pixel, vec3 position, vec3 normal, float roughness)
         vec3 first, second;
         gatherAxes(point_normal, first, second);
         // formats/gpu_shared/gather.h explains 8 / 3
-        vec3 bent = (decodeShares(lobes.x) * dot(first, normal) + decodeShares(lobes.y) * dot(second, normal)) * (8.0 / 3.0);
-        vec3 diffuse = mean.rgb * max(1.0 + bent, vec3(0.0));
+        mediump float along_first = dot(first, normal);
+        mediump float along_second = dot(second, normal);
+        mediump vec3 bent = (decodeShares(lobes.x) * along_first + decodeShares(lobes.y) * along_second) * (8.0 / 3.0);
+        mediump vec3 bend = max(1.0 + bent, vec3(0.0));
+        vec3 diffuse = mean.rgb * bend;
         sum.diffuse += diffuse * weight;
         sum.mirror += (shares.sharp * decodeRadiance(lobes.z) + shares.wide * decodeRadiance(lobes.w) + shares.cosine * diffuse) * weight;
         sum.sky += mean.a * weight;

@@ -103,7 +103,7 @@ SurfaceUvs surfaceUvs(Surface s)
     return uvs;
 }
 
-vec3 surfaceColor(Surface s)
+mediump vec3 surfaceColor(Surface s)
 {
     return vertexColor(s.draw, s.vertices[0]).rgb * s.weights.x + vertexColor(s.draw, s.vertices[1]).rgb * s.weights.y +
            vertexColor(s.draw, s.vertices[2]).rgb * s.weights.z;

@@ -16,7 +16,7 @@ struct SurfacePoint
     float error;    // metres, bounds the distance of the triangle to the source
     vec3 tangent;   // unit, world axes; only where the material or its clear coat has a normal map
     vec3 bitangent;
-    vec3 color;     // vertex colour
+    mediump vec3 color; // vertex colour
     bool front;     // the front side is visible
     VisibilityMoments sky; // sky visibility: world axes, towards the visible side
     uint instance;
@@ -52,7 +52,7 @@ bool usesUvSet(uint set)
 }
 
 // Visibility of an unoccluded sky on the side of the normal.
-VisibilityMoments openSky(vec3 normal) { return VisibilityMoments(2.0 * kVisibilityPi, normal * kVisibilityPi); }
+VisibilityMoments openSky(mediump vec3 normal) { return VisibilityMoments(2.0 * kVisibilityPi, normal * kVisibilityPi); }
 
 // Return `v` normalized, or `fallback` if v is too short to have a direction.
 vec3 normalizeOr(vec3 v, vec3 fallback)

@@ -19,26 +19,26 @@ struct Shading
 };
 
 // texels (cosine, roughness): the values of LobeTotal; below them those of SheenTotal
-layout(set = kSetScene, binding = kSceneReflectance) uniform sampler2D reflectance_table;
+layout(set = kSetScene, binding = kSceneReflectance) uniform mediump sampler2D reflectance_table;
 
 // first  row of the first node of the table, plus one half
-vec4 reflectanceTexel(vec2 coordinates, float first)
+mediump vec4 reflectanceTexel(mediump vec2 coordinates, float first)
 {
-    const vec2 nodes = vec2(kReflectanceColumns, kReflectanceRows);
+    const mediump vec2 nodes = vec2(kReflectanceColumns, kReflectanceRows);
     vec2 at = (coordinates * (nodes - 1.0) + vec2(0.5, first)) / vec2(nodes.x, 2.0 * nodes.y);
     return textureLod(reflectance_table, at, 0.0); // one mip
 }
 
-LobeTotal lobeTotal(float roughness, float n_dot_v)
+LobeTotal lobeTotal(mediump float roughness, mediump float n_dot_v)
 {
-    vec4 texel = reflectanceTexel(reflectanceCoordinates(roughness, n_dot_v), 0.5);
+    mediump vec4 texel = reflectanceTexel(reflectanceCoordinates(roughness, n_dot_v), 0.5);
     return LobeTotal(texel.r, texel.g, texel.b, texel.a);
 }
 
-vec3 fresnelSchlick(vec3 f0, float f90, float v_dot_h)
+mediump vec3 fresnelSchlick(mediump vec3 f0, mediump float f90, mediump float v_dot_h)
 {
-    float x = 1.0 - v_dot_h;
-    float x2 = x * x;
+    mediump float x = 1.0 - v_dot_h;
+    mediump float x2 = x * x;
     return f0 + (f90 - f0) * (x2 * x2 * x);
 }
 
@@ -63,7 +63,7 @@ vec3 reflected(Shading s, vec3 to_light)
     vec3 half_vector = normalize(to_light + s.to_eye);
     float n_dot_h = clamp(dot(s.normal, half_vector), 0.0, 1.0);
     float v_dot_h = clamp(dot(s.to_eye, half_vector), 0.0, 1.0);
-    vec3 fresnel = fresnelSchlick(s.albedo.f0, s.albedo.f90, v_dot_h);
+    mediump vec3 fresnel = fresnelSchlick(s.albedo.f0, s.albedo.f90, v_dot_h);
     float lobe = ggxLobe(s.roughness, n_dot_h, n_dot_l, s.n_dot_v);
     return (s.albedo.diffuse / kPi + s.albedo.scattering * fresnel * lobe) * n_dot_l;
 }

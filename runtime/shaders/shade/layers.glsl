@@ -9,23 +9,23 @@
 layout(constant_id = kConstantLayers) const uint kLayers = 0u;
 
 layout(set = kSetMaterial, binding = kMaterialLayers, std140) uniform LayersBlock { MaterialLayers material_layers; };
-layout(set = kSetMaterial, binding = kMaterialTextures + kTextureSpecular) uniform sampler2D specular_texture;
-layout(set = kSetMaterial, binding = kMaterialTextures + kTextureClearcoat) uniform sampler2D clearcoat_texture;
+layout(set = kSetMaterial, binding = kMaterialTextures + kTextureSpecular) uniform mediump sampler2D specular_texture;
+layout(set = kSetMaterial, binding = kMaterialTextures + kTextureClearcoat) uniform mediump sampler2D clearcoat_texture;
 layout(set = kSetMaterial, binding = kMaterialTextures + kTextureClearcoatNormal) uniform sampler2D clearcoat_normal_texture;
-layout(set = kSetMaterial, binding = kMaterialTextures + kTextureSheen) uniform sampler2D sheen_texture;
+layout(set = kSetMaterial, binding = kMaterialTextures + kTextureSheen) uniform mediump sampler2D sheen_texture;
 
 // Sheen and clear coat at a point; only those that the material has are set.
 struct Layers
 {
-    vec3 sheen_color;
-    float sheen_roughness; // perceptual
+    mediump vec3 sheen_color;
+    mediump float sheen_roughness; // perceptual
     SheenTotal sheen;
     vec3 coat_normal; // unit, towards the visible side
     float coat_roughness; // perceptual
     float coat_n_dot_v;
     LobeTotal coat_lobe;
-    float clearcoat; // strength
-    float coat_albedo; // share of constant light that the coat reflects
+    mediump float clearcoat; // strength
+    mediump float coat_albedo; // share of constant light that the coat reflects
 };
 
 bool hasLayer(uint layer) { return (kLayers & layer) != 0u; }
@@ -47,8 +47,9 @@ DielectricReflectance surfaceDielectric(SurfaceUvs uvs)
 {
     if (!hasLayer(kLayerSpecular))
         return defaultDielectric();
-    vec4 specular = sampleLayer(uvs, kTextureSpecular, specular_texture);
-    return specularDielectric(material_layers.dielectric_f0 * specular.rgb, material_layers.specular * specular.a);
+    mediump vec4 specular = sampleLayer(uvs, kTextureSpecular, specular_texture);
+    mediump float strength = material_layers.specular;
+    return specularDielectric(material_layers.dielectric_f0 * specular.rgb, strength * specular.a);
 }
 
 Layers surfaceLayers(SurfacePoint point, SurfaceUvs uvs, Shading s)
@@ -56,20 +57,23 @@ Layers surfaceLayers(SurfacePoint point, SurfaceUvs uvs, Shading s)
     Layers layers;
     if (hasLayer(kLayerSheen))
     {
-        vec4 sheen = sampleLayer(uvs, kTextureSheen, sheen_texture);
-        layers.sheen_color = material_layers.sheen_color * sheen.rgb;
-        layers.sheen_roughness = clampSheenRoughness(material_layers.sheen_roughness * sheen.a);
-        vec4 texel = reflectanceTexel(sheenCoordinates(layers.sheen_roughness, s.n_dot_v), 0.5 + float(kReflectanceRows));
+        mediump vec4 sheen = sampleLayer(uvs, kTextureSheen, sheen_texture);
+        mediump vec3 color = material_layers.sheen_color;
+        mediump float roughness = material_layers.sheen_roughness;
+        layers.sheen_color = color * sheen.rgb;
+        layers.sheen_roughness = clampSheenRoughness(roughness * sheen.a);
+        mediump vec4 texel = reflectanceTexel(sheenCoordinates(layers.sheen_roughness, s.n_dot_v), 0.5 + float(kReflectanceRows));
         layers.sheen = SheenTotal(texel.r, texel.g, texel.b);
     }
     if (hasLayer(kLayerClearcoat))
     {
-        vec4 coat = sampleLayer(uvs, kTextureClearcoat, clearcoat_texture);
+        mediump vec4 coat = sampleLayer(uvs, kTextureClearcoat, clearcoat_texture);
         vec3 normal = point.normal;
         if (hasTexture(kTextureClearcoatNormal))
             normal = mappedNormal(point, sampleLayer(uvs, kTextureClearcoatNormal, clearcoat_normal_texture),
                                   material_layers.clearcoat_normal_scale);
-        layers.clearcoat = material_layers.clearcoat * coat.r;
+        mediump float strength = material_layers.clearcoat;
+        layers.clearcoat = strength * coat.r;
         layers.coat_normal = point.front ? normal : -normal;
         layers.coat_roughness = clampRoughness(material_layers.clearcoat_roughness * coat.g);
         layers.coat_n_dot_v = clampedCosine(layers.coat_normal, s.to_eye);
@@ -80,7 +84,7 @@ Layers surfaceLayers(SurfacePoint point, SurfaceUvs uvs, Shading s)
 }
 
 // Share of light that the clear coat leaves to what is below.
-float belowCoat(Layers layers) { return hasLayer(kLayerClearcoat) ? 1.0 - layers.coat_albedo : 1.0; }
+mediump float belowCoat(Layers layers) { return hasLayer(kLayerClearcoat) ? 1.0 - layers.coat_albedo : 1.0; }
 
 // Radiance with sheen on top.
 // below  radiance of the surface without sheen
@@ -117,10 +121,10 @@ vec3 layeredLight(Shading s, Layers layers, vec3 to_light)
         if (n_dot_l > 0.0)
         {
             float n_dot_h = clamp(dot(layers.coat_normal, half_vector), 0.0, 1.0);
-            float v_dot_h = clamp(dot(s.to_eye, half_vector), 0.0, 1.0);
+            mediump float v_dot_h = clamp(dot(s.to_eye, half_vector), 0.0, 1.0);
             LobeTotal lobe = layers.coat_lobe;
-            vec3 f0 = vec3(kDielectricF0);
-            float several = layers.coat_albedo / onceScattered(f0, 1.0, lobe).x;
+            mediump vec3 f0 = vec3(kDielectricF0);
+            mediump float several = layers.coat_albedo / onceScattered(f0, 1.0, lobe).x;
             radiance += several * fresnelSchlick(f0, 1.0, v_dot_h) * n_dot_l *
                         ggxLobe(layers.coat_roughness, n_dot_h, n_dot_l, layers.coat_n_dot_v);
         }

@@ -38,7 +38,7 @@ vec3 lightIrradiance(Light light, vec3 position, out vec3 to_light)
     vec3 share = vec3(1.0);
     if (light.type == kLightSpot)
     {
-        float cone = clamp(dot(light.direction, -to_light) * light.cone_scale + light.cone_offset, 0.0, 1.0);
+        mediump float cone = clamp(dot(light.direction, -to_light) * light.cone_scale + light.cone_offset, 0.0, 1.0);
         share = vec3(cone * cone);
     }
     share += reflectedShare(light, -to_light);
@@ -47,13 +47,14 @@ vec3 lightIrradiance(Light light, vec3 position, out vec3 to_light)
 
 // Radiance towards the eye from everything except the lights. occlusion: value of the material's occlusion
 // texture.
-vec3 surroundingLight(SurfacePoint point, Shading shading, Layers layers, float occlusion);
+vec3 surroundingLight(SurfacePoint point, Shading shading, Layers layers, mediump float occlusion);
 
-vec3 lit(SurfacePoint point, SurfaceUvs uvs, vec3 base)
+vec3 lit(SurfacePoint point, SurfaceUvs uvs, mediump vec3 base)
 {
     vec3 normal = shadingNormal(point, uvs);
     vec4 metallic_roughness = sampleSurface(uvs, kTextureMetallicRoughness, metallic_roughness_texture);
-    float metallic = clamp(material.metallic * metallic_roughness.b, 0.0, 1.0);
+    mediump float metallic_factor = material.metallic;
+    mediump float metallic = clamp(metallic_factor * metallic_roughness.b, 0.0, 1.0);
     Shading shading;
     shading.roughness = surfaceRoughness(metallic_roughness);
     shading.normal = normal;
@@ -72,8 +73,8 @@ vec3 lit(SurfacePoint point, SurfaceUvs uvs, vec3 base)
         radiance += irradiance * layeredLight(shading, layers, to_light) * share;
     }
 
-    float occlusion =
-        mix(1.0, sampleSurface(uvs, kTextureOcclusion, occlusion_texture).r, material.occlusion_strength);
+    mediump float occlusion_strength = material.occlusion_strength;
+    mediump float occlusion = mix(1.0, sampleSurface(uvs, kTextureOcclusion, occlusion_texture).r, occlusion_strength);
     radiance += surroundingLight(point, shading, layers, occlusion);
     vec3 emission = material.emissive * sampleSurface(uvs, kTextureEmissive, emissive_texture).rgb;
     return radiance + belowCoat(layers) * lighting.exposure * emission;
@@ -82,7 +83,7 @@ vec3 lit(SurfacePoint point, SurfaceUvs uvs, vec3 base)
 // Display-linear colour. Unlit colours are display colours: no light, no tone mapping.
 vec3 displayColor(SurfacePoint point, SurfaceUvs uvs)
 {
-    vec3 base =
-        material.base_color.rgb * point.color * sampleSurface(uvs, kTextureBaseColor, base_color_texture).rgb;
+    mediump vec3 factor = material.base_color.rgb;
+    mediump vec3 base = factor * point.color * sampleSurface(uvs, kTextureBaseColor, base_color_texture).rgb;
     return kUnlit ? base : toneMap(lit(point, uvs, base));
 }

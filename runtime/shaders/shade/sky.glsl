@@ -6,14 +6,14 @@
 #include "formats/gpu_shared/sky.h"
 
 // texels (height, half-angle): means over cones
-layout(set = kSetScene, binding = kSceneSkyTable) uniform sampler2D sky_table;
+layout(set = kSetScene, binding = kSceneSkyTable) uniform mediump sampler2D sky_table;
 
 Sky sceneSky() { return Sky(lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground); }
 
 // Mean radiance over a cone.
-vec3 skyConeRadiance(LightCone cone)
+mediump vec3 skyConeRadiance(LightCone cone)
 {
-    const vec2 nodes = vec2(kSkyTableHeights, kSkyTableAngles);
-    vec2 at = (skyTableCoordinates(cone.axis.y, cone.cos_half_angle) * (nodes - 1.0) + 0.5) / nodes;
+    const mediump vec2 nodes = vec2(kSkyTableHeights, kSkyTableAngles);
+    mediump vec2 at = (skyTableCoordinates(cone.axis.y, cone.cos_half_angle) * (nodes - 1.0) + 0.5) / nodes;
     return skyMeanRadiance(sceneSky(), textureLod(sky_table, at, 0.0).rg); // one mip
 }

@@ -12,16 +12,16 @@
 
 // 16 x 16 texels (aperture, roughness); squares for the nodes of beta below each other; white in scenes
 // without a table
-layout(set = kSetScene, binding = kSceneSpecularTable) uniform sampler2D specular_table;
+layout(set = kSetScene, binding = kSceneSpecularTable) uniform mediump sampler2D specular_table;
 
 
 // Visibility cone of a point, and its angles to the normals.
 struct SkyView
 {
     VisibilityCone cone;
-    float geometric; // cosine between the axis and the normal that the cone was baked for
-    float shading;   // cosine between the axis and the shading normal
-    vec3 occluded;   // mean of the occluded directions
+    mediump float geometric; // cosine between the axis and the normal that the cone was baked for
+    mediump float shading;   // cosine between the axis and the shading normal
+    mediump vec3 occluded;   // mean of the occluded directions
 };
 
 // normal  of the lobe that the sky lights
@@ -39,25 +39,26 @@ SkyView skyView(SurfacePoint point, vec3 normal, uint slot)
     return sky;
 }
 
-float diffuseSky(SkyView sky)
+mediump float diffuseSky(SkyView sky)
 {
     return ambientOcclusion(push.sky_occlusion & 255u, sky.cone.scale, sky.cone.cos_aperture, sky.cone.aperture,
                             sky.geometric, sky.shading);
 }
 
-float specularTableShare(vec3 place)
+mediump float specularTableShare(vec3 place)
 {
     float beta = place.z * 15.0;
     float below = floor(beta);
     vec2 at = vec2(place.x * 15.0 + 0.5, place.y * 15.0 + 0.5 + 16.0 * below) / vec2(16.0, 256.0);
     // one mip: explicit, so that no derivative is needed
-    float first = textureLod(specular_table, at, 0.0).r;
-    float second = textureLod(specular_table, vec2(at.x, below < 15.0 ? at.y + 1.0 / 16.0 : at.y), 0.0).r;
-    return mix(first, second, beta - below);
+    mediump float first = textureLod(specular_table, at, 0.0).r;
+    mediump float second = textureLod(specular_table, vec2(at.x, below < 15.0 ? at.y + 1.0 / 16.0 : at.y), 0.0).r;
+    mediump float above = beta - below;
+    return mix(first, second, above);
 }
 
 // mirror: reflection of the view direction at the shading normal, unit
-float specularSky(SkyView sky, float roughness, float n_dot_v, vec3 mirror)
+mediump float specularSky(SkyView sky, float roughness, float n_dot_v, vec3 mirror)
 {
     uint mode = push.sky_occlusion >> 8 & 255u;
     if (mode == kSpecularOcclusionOff)
@@ -72,7 +73,7 @@ float specularSky(SkyView sky, float roughness, float n_dot_v, vec3 mirror)
 
 // Radiance that the occluders of the diffuse part give back, by the part of its light that they hide.
 // share  of the sky that is visible
-vec3 diffuseOccluders(OccluderLight occluders, SkyView sky, float share)
+mediump vec3 diffuseOccluders(OccluderLight occluders, SkyView sky, mediump float share)
 {
     if ((push.sky_occlusion & 255u) == kAmbientOcclusionOff)
         return vec3(0.0);
@@ -81,11 +82,11 @@ vec3 diffuseOccluders(OccluderLight occluders, SkyView sky, float share)
 
 // The same of a reflection.
 // open  cone without occlusion
-vec3 specularOccluders(OccluderLight occluders, LightCone open, float share)
+mediump vec3 specularOccluders(OccluderLight occluders, LightCone open, mediump float share)
 {
     if ((push.sky_occlusion >> 8 & 255u) == kSpecularOcclusionOff)
         return vec3(0.0);
-    vec3 mean = open.axis * (0.5 + 0.5 * open.cos_half_angle);
+    mediump vec3 mean = open.axis * (0.5 + 0.5 * open.cos_half_angle);
     return (1.0 - share) * occluderRadiance(occluders, mean);
 }
 

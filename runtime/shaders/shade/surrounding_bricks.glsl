@@ -11,7 +11,7 @@ const float kOpenMargin = 0.1;
 // Occlusion by detail finer than the bricks: leaves and blades, several in a voxel. Returns the sky share of
 // the cone over the sky share that the bricks leave. Elsewhere the gather knows more than cones do: those of
 // vertices cannot follow a shadow across a wall, and would take light away that its bricks have not.
-float fineOcclusion(SurfacePoint point, vec3 normal, float sky_share)
+mediump float fineOcclusion(SurfacePoint point, vec3 normal, mediump float sky_share)
 {
     if (!kSkyVisibility || material.alpha_mode == kAlphaOpaque)
         return 1.0;
@@ -23,10 +23,10 @@ vec3 reflectedShare(Light light, vec3 from_lamp)
     return reflectorShare(light, from_lamp);
 }
 
-vec3 surroundingLight(SurfacePoint point, Shading shading, Layers layers, float occlusion)
+vec3 surroundingLight(SurfacePoint point, Shading shading, Layers layers, mediump float occlusion)
 {
     GiSample light = sampleGi(gl_FragCoord.xy, point.position, shading.normal, shading.roughness);
-    float fine = min(occlusion, fineOcclusion(point, shading.normal, light.sky));
+    mediump float fine = min(occlusion, fineOcclusion(point, shading.normal, light.sky));
     vec3 radiance = fine * shading.albedo.diffuse * light.diffuse + occlusion * shading.albedo.specular * light.mirror;
     if (hasLayer(kLayerSheen))
         radiance = addSheen(layers, radiance, fine * light.diffuse);

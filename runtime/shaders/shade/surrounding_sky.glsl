@@ -11,23 +11,23 @@ vec3 reflectedShare(Light light, vec3 from_lamp)
 // Light of the sky and of its occluders that a lobe reflects, per albedo.
 // mirror  reflection of the view direction at the normal of the lobe
 // open    cone of the lobe under an open sky
-vec3 mirroredSky(SkyView sky, OccluderLight occluders, LightCone open, vec3 mirror, float roughness, float n_dot_v,
-                 float occlusion)
+mediump vec3 mirroredSky(SkyView sky, OccluderLight occluders, LightCone open, vec3 mirror, mediump float roughness,
+                         mediump float n_dot_v, mediump float occlusion)
 {
     if (!kSkyVisibility)
         return occlusion * skyConeRadiance(open);
-    float share = min(occlusion, specularSky(sky, roughness, n_dot_v, mirror));
+    mediump float share = min(occlusion, specularSky(sky, roughness, n_dot_v, mirror));
     return share * skyConeRadiance(visibleSpecularCone(sky, open)) + specularOccluders(occluders, open, share);
 }
 
-vec3 surroundingLight(SurfacePoint point, Shading shading, Layers layers, float occlusion)
+vec3 surroundingLight(SurfacePoint point, Shading shading, Layers layers, mediump float occlusion)
 {
     vec3 mirror = reflect(-shading.to_eye, shading.normal);
     LightCone diffuse = cosineCone(shading.normal);
     SkyView sky = skyView(point, shading.normal, kTextureNormal);
     OccluderLight occluders = kNoOccluderLight;
-    float diffuse_share = occlusion;
-    vec3 occluded = vec3(0.0);
+    mediump float diffuse_share = occlusion;
+    mediump vec3 occluded = vec3(0.0);
     if (kSkyVisibility)
     {
         // The smaller share counts. An occlusion texture is usually baked from the same shape and would
@@ -38,7 +38,7 @@ vec3 surroundingLight(SurfacePoint point, Shading shading, Layers layers, float 
         occluded = diffuseOccluders(occluders, sky, diffuse_share);
     }
     LightCone specular = lobeCone(shading.lobe, mirror, shading.normal);
-    vec3 radiance = shading.albedo.diffuse * (diffuse_share * skyConeRadiance(diffuse) + occluded) +
+    mediump vec3 radiance = shading.albedo.diffuse * (diffuse_share * skyConeRadiance(diffuse) + occluded) +
                     shading.albedo.specular * mirroredSky(sky, occluders, specular, mirror, shading.roughness,
                                                           shading.n_dot_v, occlusion);
     if (hasLayer(kLayerSheen))

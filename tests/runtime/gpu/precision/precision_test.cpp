@@ -1,0 +1,94 @@
+// Tests which shaders compute in half precision: shading does, and nothing that decides what is visible or
+// where it is.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/runtime/gpu/precision/relaxed_precision.h"
+#include "tests/runtime/shaders/shader_list.h"
+
+#include <gmock/gmock.h>
+#include <map>
+#include <string>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+/// Shares of the arithmetic of all features that is relaxed, in per cent: no less than measured. The rest
+/// reconstructs the surface, finds light and shadow, and is the distribution of microfacets.
+const std::map<std::string, double>& relaxedShares()
+{
+    static const std::map<std::string, double> shares = {{"shading_frag", 29},
+                                                         {"shading_shadowed_frag", 27},
+                                                         {"shading_gi_frag", 15},
+                                                         {"shading_shadowed_gi_frag", 13}};
+    return shares;
+}
+
+/// Debug views and the background shade, too; the rest decides what is drawn where, or must be the CPU's to
+/// the bit.
+bool shades(const std::string& name)
+{
+    return relaxedShares().contains(name) || name.starts_with("view_") || name == "sky_frag";
+}
+
+double relaxedShare(std::span<const uint32_t> words)
+{
+    const PrecisionCounts counts = countPrecisions(words);
+    return 100.0 * counts.relaxed / counts.arithmetic;
+}
+
+} // namespace
+
+TEST(PrecisionTest, shadingIsRelaxed)
+{
+    size_t found = 0;
+    for (const ListedShader& shader : listedShaders())
+        if (const auto share = relaxedShares().find(shader.name); share != relaxedShares().end())
+        {
+            const PrecisionCounts counts = countPrecisions(shader.words);
+            std::printf("%-26s %u of %u relaxed, %.1f %%\n", shader.name, counts.relaxed, counts.arithmetic,
+                        relaxedShare(shader.words));
+            EXPECT_GE(relaxedShare(shader.words), share->second) << shader.name;
+            EXPECT_LT(relaxedShare(shader.words), 100) << shader.name;
+            EXPECT_DOUBLE_EQ(relaxedShare(relaxEverything(shader.words)), 100) << shader.name;
+            ++found;
+        }
+    EXPECT_EQ(found, relaxedShares().size());
+}
+
+TEST(PrecisionTest, allElseIsFull)
+{
+    size_t full = 0;
+    for (const ListedShader& shader : listedShaders())
+        if (!shades(shader.name))
+        {
+            EXPECT_FALSE(hasRelaxedPrecision(shader.words)) << shader.name;
+            ++full;
+        }
+    EXPECT_GT(full, 30u);
+}
+
+/// Positions, barycentrics and normals of triangles are full where shading reads textures and shadow maps
+/// by them.
+TEST(PrecisionTest, placesInTexturesAreFull)
+{
+    for (const ListedShader& shader : listedShaders())
+    {
+        if (!shades(shader.name))
+            continue;
+        EXPECT_THAT(findRelaxedPlaces(shader.words), IsEmpty()) << shader.name;
+        if (relaxedShares().contains(shader.name))
+        {
+            EXPECT_THAT(findRelaxedPlaces(relaxEverything(shader.words)), Contains(HasSubstr("value ")))
+                << shader.name;
+        }
+    }
+}
+
+} // namespace hearth::test
