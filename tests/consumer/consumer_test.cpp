@@ -98,7 +98,7 @@ TEST_F(Consumer, drawsWhatItsBuildHasCooked)
 {
     configure("Ninja");
     build("all");
-    EXPECT_EQ(run("build/version"), "1.7: ok\n");
+    EXPECT_EQ(run("build/version"), "1.8: ok\n");
     EXPECT_EQ(run("build/pack_triangles build/game.hearth"), "2\n");
     EXPECT_EQ(run("build/pack_triangles 'build/packs/two signs.hearth'"), "4\n");
     EXPECT_EQ(shell("build/pack_triangles game/CMakeLists.txt").exit_code, 65);

@@ -93,7 +93,7 @@ TEST_F(Installed, isFoundByPkgConfig)
 {
     const std::string pkg_config = pkgConfig("prefix/" + libraryFolder());
     compile("version", "$(" + pkg_config + "--cflags --libs hearth)");
-    EXPECT_EQ(run("LD_LIBRARY_PATH=\"$PWD/prefix/" + libraryFolder() + "\" ./version"), "1.7: ok\n");
+    EXPECT_EQ(run("LD_LIBRARY_PATH=\"$PWD/prefix/" + libraryFolder() + "\" ./version"), "1.8: ok\n");
     run(pkg_config + "--exists 'hearth >= 0.1, hearth < 1'");
     for (const char* path : {"prefix", "includedir", "libdir"})
         run("test -d $(" + pkg_config + "--variable=" + path + " hearth)");
@@ -106,7 +106,7 @@ TEST_F(Installed, isLinkedIntoAProgramByPkgConfig)
     run("cp -r prefix archives && rm archives/" + libraryFolder() + "/libhearth.so*");
     const std::string pkg_config = pkgConfig("archives/" + libraryFolder());
     compile("version_static", "$(" + pkg_config + "--static --cflags --libs hearth hearth-helpers)");
-    EXPECT_EQ(run("./version_static"), "1.7: ok\n");
+    EXPECT_EQ(run("./version_static"), "1.8: ok\n");
 }
 
 TEST_F(Installed, pkgConfigFindsTheHelpers)

@@ -85,8 +85,7 @@ std::vector<Step> listSteps(const FrameConfiguration& c)
 {
     const bool two_phases = c.occlusion == OcclusionCulling::two_phase;
     std::vector<Step> steps;
-    steps.push_back(
-        {.step = FrameStep::update, .kind = PassKind::transfer, .host_write = HostWrite::command_buffer});
+    steps.push_back({.step = FrameStep::update, .kind = PassKind::compute, .host_write = HostWrite::ring});
     if (c.lights_bricks)
         steps.push_back({.step = FrameStep::brick_light, .kind = PassKind::compute});
     if (c.has_shadows)
