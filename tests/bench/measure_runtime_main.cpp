@@ -41,11 +41,7 @@ constexpr Stage kStages[] = {
      "cull, pyramid, late cull",
      {"cull", "pyramid", "late_cull"}},
     {"rasterization", 0.72, 2.67, "visibility, both phases", {"early_visibility", "visibility", nullptr}},
-    {"material classify",
-     0.92,
-     3.42,
-     "material tiles",
-     {"material_tiles", nullptr, nullptr}},
+    {"material classify", 0.92, 3.42, "material tiles", {"material_tiles", nullptr, nullptr}},
     {"material shading", 0.87, 7.31, "marks of materials, shading", {"shading", nullptr, nullptr}},
 };
 
