@@ -212,7 +212,7 @@ void Renderer::recordCull(VkCommandBuffer commands, const Scene& scene, FrameTar
     cull_.record(device_, commands, scene, scene.frame().main, targets.occlusionSet(), firstPhase(input));
     recordSkinning(commands, scene, firstPhase(input));
     if (scene.stream != nullptr)
-        recordRequests(commands, scene);
+        page_requests_.record(device_, commands, scene);
     writeTimestamp(device_, commands, input.timestamps, kTimestampCull);
 }
 
@@ -250,7 +250,7 @@ void Renderer::recordPrefetch(VkCommandBuffer commands, const Scene& scene, Fram
     recordFrameUpdate(device_, commands, scene, targets, copy_words_, scene.stream->scaled(view),
                       {moves, poses});
     cull_.record(device_, commands, scene, scene.frame().main, targets.occlusionSet(), shared::kPhaseWhole);
-    recordRequests(commands, scene);
+    page_requests_.record(device_, commands, scene);
 }
 
 /// Draw the shadow maps that are stale: find the casters of as many as there are views, then draw these.
@@ -300,12 +300,6 @@ void Renderer::recordSkinning(VkCommandBuffer commands, const Scene& scene, uint
         return;
     const DebugLabel label(device_, commands, "skinning");
     skinning_->record(device_, commands, scene, phase);
-}
-
-/// Record after the first culling phase.
-void Renderer::recordRequests(VkCommandBuffer commands, const Scene& scene) const
-{
-    page_requests_.record(device_, commands, scene);
 }
 
 /// Record the early phase: draw the clusters that the last frame's depth does not occlude, build the pyramid,

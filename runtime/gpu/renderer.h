@@ -138,7 +138,6 @@ private:
     void recordSkinning(VkCommandBuffer commands, const Scene& scene, uint32_t phase) const;
     void recordShadows(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
                        const shared::FrameView& view, std::span<const ShadowSphere> spheres) const;
-    void recordRequests(VkCommandBuffer commands, const Scene& scene) const;
     void recordBrickLight(VkCommandBuffer commands, const Scene& scene, WordCopies& copies,
                           const FrameInput& input) const;
     const FramePlan& plan(const Scene& scene, const FrameTargets& targets, const FrameInput& input,

@@ -147,7 +147,6 @@ struct Subpass
 
 enum class PassKind : uint8_t
 {
-    transfer,
     compute,
     render,
 };
@@ -156,9 +155,8 @@ enum class PassKind : uint8_t
 enum class HostWrite : uint8_t
 {
     none,
-    command_buffer, ///< vkCmdUpdateBuffer: the driver keeps a copy
-    ring,           ///< a part of a mapped buffer that no frame in flight reads
-    in_place,       ///< mapped memory that an earlier frame may still read
+    ring,     ///< a part of a mapped buffer that no frame in flight reads
+    in_place, ///< mapped memory that an earlier frame may still read
 };
 
 /// Memory dependency on everything earlier that touched what a pass touches.
