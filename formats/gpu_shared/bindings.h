@@ -9,11 +9,18 @@
 HEARTH_SHARED_BEGIN
 
 /// Sets of the pipelines that draw and shade clusters. The compute passes that read vertices have the
-/// scene as their set 0.
+/// scene as their set 0. With HEARTH_ONE_SET, which shaders alone define, all that shading binds is set 0
+/// (FrameWay::one_set): bindings of the scene, a material, the attachments and the tables of cluster views
+/// have different numbers.
 HEARTH_CONSTANT uint kSetScene = 0;
+#ifdef HEARTH_ONE_SET
+HEARTH_CONSTANT uint kSetMaterial = 0;
+HEARTH_CONSTANT uint kSetAttachments = 0;
+#else
 HEARTH_CONSTANT uint kSetMaterial = 1;
-HEARTH_CONSTANT uint kSetBins = 2;        ///< visibility pass and shadow casters
 HEARTH_CONSTANT uint kSetAttachments = 2; ///< material depth and shading
+#endif
+HEARTH_CONSTANT uint kSetBins = 2; ///< visibility pass and shadow casters
 
 /// Bindings of the scene. Seven storage buffers in the vertex stage, to which each set 2 adds one, and
 /// eight in the fragment stage, which is the limit of the renderer.
@@ -31,26 +38,31 @@ HEARTH_CONSTANT uint kSceneReflectance = 12;   ///< tables of reflectance.h and,
 HEARTH_CONSTANT uint kSceneSkyTable = 13;      ///< table of sky.h
 
 /// Bindings of a material.
-HEARTH_CONSTANT uint kMaterialBlock = 0;
-HEARTH_CONSTANT uint kMaterialTextures = 1; ///< first of kTextureCount bindings, in the order of kTexture*
-HEARTH_CONSTANT uint kMaterialLayers = 10;  ///< uniform block; read by the pipelines of materials with layers
+HEARTH_CONSTANT uint kMaterialBlock = 14;
+HEARTH_CONSTANT uint kMaterialTextures = 15; ///< first of kTextureCount bindings, in the order of kTexture*
+HEARTH_CONSTANT uint kMaterialLayers = 24; ///< uniform block; read by the pipelines of materials with layers
 
 /// Binding of the bins: draws of the bins, then draws of the late phase.
 HEARTH_CONSTANT uint kBinsDraws = 0;
 
 /// Bindings of the frame's images and lists that shading reads.
-HEARTH_CONSTANT uint kAttachmentVisibility = 0;
-HEARTH_CONSTANT uint kAttachmentTileLists = 1;
-HEARTH_CONSTANT uint kAttachmentGi = 2; ///< result of the gather passes, for frames with GI
+HEARTH_CONSTANT uint kAttachmentVisibility = 25;
+HEARTH_CONSTANT uint kAttachmentTileLists = 26;
+HEARTH_CONSTANT uint kAttachmentGi = 27; ///< result of the gather passes, for frames with GI
 
 /// Index of the visibility buffer among the input attachments of the subpasses that read it.
 HEARTH_CONSTANT uint kInputVisibility = 0;
 
 /// Sets of the compute passes over the tables of a scene, and of the debug views of clusters.
 HEARTH_CONSTANT uint kSetTables = 0;
-HEARTH_CONSTANT uint kSetOcclusion = 1;          ///< culling
-HEARTH_CONSTANT uint kSetTiles = 1;              ///< material tiles
-HEARTH_CONSTANT uint kSetClusterAttachments = 1; ///< debug views: the attachments, with their bindings
+HEARTH_CONSTANT uint kSetOcclusion = 1; ///< culling
+HEARTH_CONSTANT uint kSetTiles = 1;     ///< material tiles
+/// Debug views of clusters: the attachments, with their bindings.
+#ifdef HEARTH_ONE_SET
+HEARTH_CONSTANT uint kSetClusterAttachments = 0;
+#else
+HEARTH_CONSTANT uint kSetClusterAttachments = 1;
+#endif
 
 /// Bindings of the tables: a table has the same one in every pass, and a pass has those that it uses
 /// (runtime/gpu/scene/scene_tables.h).

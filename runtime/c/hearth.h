@@ -169,7 +169,9 @@ enum
     HEARTH_FRAME_AUTOMATIC = 0,
     HEARTH_FRAME_MERGED =
         1, /* render passes of two subpasses: the visibility buffer need not leave the tile */
-    HEARTH_FRAME_SEPARATE = 2 /* a render pass for the visibility buffer, one for shading, which samples it */
+    HEARTH_FRAME_SEPARATE =
+        2,                   /* a render pass for the visibility buffer, one for shading, which samples it */
+    HEARTH_FRAME_ONE_SET = 3 /* as MERGED, with one descriptor set for all that shading binds */
 };
 
 typedef struct hearth_renderer_description

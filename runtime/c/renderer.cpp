@@ -49,7 +49,7 @@ Status check(const hearth_renderer_description& description)
         description.physical_device == VK_NULL_HANDLE || description.device == VK_NULL_HANDLE)
         return usage("get_instance_proc_addr, instance, physical_device or device is missing");
     if ((description.features & ~kFeatures) != 0 || description.materials > HEARTH_MATERIALS_ID ||
-        description.frame_way > HEARTH_FRAME_SEPARATE)
+        description.frame_way > HEARTH_FRAME_ONE_SET)
         return usage("features has bits, or materials or frame_way a value, that this version does not know");
     if ((description.memory.allocate == nullptr) != (description.memory.free == nullptr))
         return usage("memory has one function and not the other");
@@ -101,6 +101,8 @@ std::optional<gpu::FrameWay> toFrameWay(uint32_t way)
         return gpu::FrameWay::merged;
     case HEARTH_FRAME_SEPARATE:
         return gpu::FrameWay::separate;
+    case HEARTH_FRAME_ONE_SET:
+        return gpu::FrameWay::one_set;
     default:
         return std::nullopt;
     }

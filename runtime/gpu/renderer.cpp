@@ -80,7 +80,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const DeviceDescription& desc
                             makeDevice(description, has_stencil ? std::span(&kStencilFormat, 1)
                                                                 : std::span<const RequiredFormat>()));
     const FrameWay way = options.way.value_or(chooseFrameWay(r.device_.identity));
-    HEARTH_ASSIGN_OR_RETURN(r.layouts_, DrawLayouts::create(r.device_, visibilityDescriptor(way)));
+    HEARTH_ASSIGN_OR_RETURN(r.layouts_, DrawLayouts::create(r.device_, shadingDescriptors(way)));
     HEARTH_ASSIGN_OR_RETURN(r.passes_, FramePasses::create(r.device_, way, options.materials));
     HEARTH_ASSIGN_OR_RETURN(r.cull_, CullPass::create(r.device_, r.layouts_));
     HEARTH_ASSIGN_OR_RETURN(r.copy_words_, WordCopyPass::create(r.device_));
@@ -151,6 +151,10 @@ Result<std::unique_ptr<Scene>> Renderer::upload(const formats::PackView& pack, V
         material.variant.bricks = scene->bricks != nullptr ? 1 : 0;
         material.variant.shadows = scene->shadows != nullptr ? 1 : 0;
         HEARTH_ASSIGN_OR_RETURN(material.pipelines, shading_.prepare(device_, layouts_, material.variant));
+    }
+    if (layouts_.joinsSets())
+    {
+        HEARTH_ASSIGN_OR_RETURN(scene->joined_sets, JoinedSets::create(device_, layouts_, *scene));
     }
     if (scene->dropped_lights > 0)
         warn(device_, pack.name(), "",

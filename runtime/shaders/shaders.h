@@ -9,11 +9,12 @@
 namespace hearth::shaders
 {
 
-/// Compilations of a shader that reads the visibility buffer, by macro.
+/// Compilations of a shader of the pipelines that read the visibility buffer, by macro.
 enum Variant : uint32_t
 {
-    kReadsInput,   ///< none
-    kReadsSampled, ///< HEARTH_SAMPLED
+    kReadsInput,         ///< none
+    kReadsSampled,       ///< HEARTH_SAMPLED
+    kReadsInputOfOneSet, ///< HEARTH_ONE_SET
     kVariantCount,
 };
 using VariedShader = std::array<std::span<const uint32_t>, kVariantCount>;
@@ -52,8 +53,8 @@ extern const std::span<const uint32_t> caster_frag;
 extern const std::span<const uint32_t> caster_masked_vert;
 extern const std::span<const uint32_t> caster_masked_frag;
 extern const std::span<const uint32_t> fullscreen_vert;
-extern const std::span<const uint32_t> shaded_area_vert;
 extern const std::span<const uint32_t> view_bricks_frag;
+extern const VariedShader shaded_area_vert;
 extern const VariedShader material_depth_frag;
 extern const VariedShader material_stencil_frag;
 extern const VariedShader shading_frag;

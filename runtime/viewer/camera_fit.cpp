@@ -27,7 +27,7 @@ size_t countClusters(const formats::PackView& pack, formats::Range instances)
 
 /// Call `visit` with the corners of the boxes in world space.
 template <typename Visitor>
-void forEachCorner(std::span<const gpu::TransformedBox> boxes, const Visitor& visit)
+void forEachCorner(std::span<const pack::TransformedBox> boxes, const Visitor& visit)
 {
     for (const auto& [box, world_from_box] : boxes)
         for (int corner = 0; corner < 8; ++corner)
@@ -37,7 +37,7 @@ void forEachCorner(std::span<const gpu::TransformedBox> boxes, const Visitor& vi
 }
 
 /// bounds  bounds of the boxes
-shared::Camera fitToBoxes(std::span<const gpu::TransformedBox> boxes, const Box3& bounds, float aspect)
+shared::Camera fitToBoxes(std::span<const pack::TransformedBox> boxes, const Box3& bounds, float aspect)
 {
     shared::Camera camera;
     camera.y_fov_rad = kFieldOfView;
@@ -91,7 +91,7 @@ shared::Camera fitCamera(const formats::PackView& pack, float aspect)
 
 shared::Camera fitCamera(const formats::PackView& pack, const pack::PosePlayer& player, float aspect)
 {
-    return fitCamera(pack, player, gpu::allInstances(pack), aspect);
+    return fitCamera(pack, player, pack::allInstances(pack), aspect);
 }
 
 shared::Camera fitCamera(const formats::PackView& pack, const pack::PosePlayer& player,
@@ -99,12 +99,12 @@ shared::Camera fitCamera(const formats::PackView& pack, const pack::PosePlayer& 
 {
     // the corners of the finest clusters' boxes fit round shapes tighter than the boxes of whole instances
     const bool by_clusters = countClusters(pack, instances) <= kMaxClusterBoxes;
-    return fitToBoxes(by_clusters ? gpu::clusterBoxes(pack, player, instances)
-                                  : gpu::instanceBoxes(pack, player, instances),
-                      gpu::instanceBounds(pack, player, instances), aspect);
+    return fitToBoxes(by_clusters ? pack::clusterBoxes(pack, player, instances)
+                                  : pack::instanceBoxes(pack, player, instances),
+                      pack::instanceBounds(pack, player, instances), aspect);
 }
 
-shared::Camera fitCamera(std::span<const gpu::TransformedBox> boxes, float aspect)
+shared::Camera fitCamera(std::span<const pack::TransformedBox> boxes, float aspect)
 {
     Box3 bounds;
     forEachCorner(boxes, [&](Float3 corner) { bounds.add(corner); });

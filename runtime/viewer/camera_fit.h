@@ -4,8 +4,8 @@
 
 #include "formats/pack/pack_view.h"
 #include "runtime/frame/frame.h"
-#include "runtime/gpu/scene/scene_boxes.h"
 #include "runtime/pack/pose_player.h"
+#include "runtime/pack/scene_boxes.h"
 
 namespace hearth::viewer
 {
@@ -20,7 +20,7 @@ shared::Camera fitCamera(const formats::PackView& pack, const pack::PosePlayer& 
                          formats::Range instances, float aspect);
 
 /// Fit a camera to boxes.
-shared::Camera fitCamera(std::span<const gpu::TransformedBox> boxes, float aspect);
+shared::Camera fitCamera(std::span<const pack::TransformedBox> boxes, float aspect);
 
 /// Fit a camera to a pack at rest.
 shared::Camera fitCamera(const formats::PackView& pack, float aspect);

@@ -33,8 +33,10 @@ std::span<const Named<gpu::ShadedArea>> shadedAreaNames()
 
 std::span<const Named<std::optional<gpu::FrameWay>>> frameWayNames()
 {
-    static constexpr Named<std::optional<gpu::FrameWay>> kWays[] = {
-        {"automatic", {}}, {"merged", gpu::FrameWay::merged}, {"separate", gpu::FrameWay::separate}};
+    static constexpr Named<std::optional<gpu::FrameWay>> kWays[] = {{"automatic", {}},
+                                                                    {"merged", gpu::FrameWay::merged},
+                                                                    {"separate", gpu::FrameWay::separate},
+                                                                    {"one-set", gpu::FrameWay::one_set}};
     return kWays;
 }
 

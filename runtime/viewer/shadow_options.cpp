@@ -2,8 +2,8 @@
 #include "runtime/viewer/shadow_options.h"
 
 #include "formats/base/text.h"
-#include "runtime/gpu/scene/scene_boxes.h"
 #include "runtime/gpu/scene/scene_shading.h"
+#include "runtime/pack/scene_boxes.h"
 #include "runtime/viewer/text.h"
 
 #include <algorithm>
@@ -136,7 +136,7 @@ gpu::ShadowOptions fitShadows(const ShadowSettings& settings, const formats::Pac
     if (settings.fit_maps && options.max_maps > 0)
         options.max_maps = gpu::countShadowMaps(gpu::makeLighting(pack), options.splits,
                                                 pack.shadowSpheres().size() + settings.spheres.size());
-    const Box3 bounds = gpu::sceneBounds(pack);
+    const Box3 bounds = pack::sceneBounds(pack);
     if (bounds.empty())
         return options;
     float near = HUGE_VALF;

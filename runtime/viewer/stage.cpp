@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/stage.h"
 
-#include "runtime/gpu/scene/scene_boxes.h"
+#include "runtime/pack/scene_boxes.h"
 #include "runtime/viewer/camera_fit.h"
 
 namespace hearth::viewer
@@ -42,7 +42,7 @@ Result<Stage> Stage::fromMeshes(const formats::PackView& pack, const pack::PoseP
                          "--meshes: nothing draws a mesh " + std::to_string(mesh)};
         const formats::Range part{static_cast<uint32_t>(found - instances.begin()), 1};
         stage.parts_.push_back(part);
-        stage.cameras_.push_back(fitCamera(gpu::instanceBoxes(pack, player, part), aspect));
+        stage.cameras_.push_back(fitCamera(pack::instanceBoxes(pack, player, part), aspect));
     }
     return stage;
 }

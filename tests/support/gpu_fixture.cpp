@@ -37,12 +37,12 @@ size_t testOption(const char* variable, std::initializer_list<std::string_view> 
     return static_cast<size_t>(found - names.begin());
 }
 
-/// Options by which the tests run, HEARTH_TEST_MATERIALS=depth|id and HEARTH_TEST_FRAME=merged|separate.
+/// Options by which the tests run, HEARTH_TEST_MATERIALS=depth|id and HEARTH_TEST_FRAME=merged|separate|one-set.
 gpu::RendererOptions rendererOptions()
 {
-    return {.way = static_cast<gpu::FrameWay>(testOption("HEARTH_TEST_FRAME", {"merged", "separate"})),
-            .materials =
-                static_cast<gpu::MaterialTest>(testOption("HEARTH_TEST_MATERIALS", {"depth", "id"}))};
+    return {
+        .way = static_cast<gpu::FrameWay>(testOption("HEARTH_TEST_FRAME", {"merged", "separate", "one-set"})),
+        .materials = static_cast<gpu::MaterialTest>(testOption("HEARTH_TEST_MATERIALS", {"depth", "id"}))};
 }
 
 std::vector<uint32_t> toWords(const std::vector<std::byte>& bytes)

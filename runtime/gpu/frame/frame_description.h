@@ -210,8 +210,17 @@ enum class FrameWay : uint8_t
     /// A render pass for each step that draws: shading samples the visibility buffer. For drivers that fail
     /// at subpasses or do not merge them.
     separate,
+    /// The render passes of `merged`, in which all that shading binds is one descriptor set. For drivers that
+    /// fail at input attachments beside other sets.
+    one_set,
 };
-inline constexpr FrameWay kFrameWays[] = {FrameWay::merged, FrameWay::separate};
+inline constexpr FrameWay kFrameWays[] = {FrameWay::merged, FrameWay::separate, FrameWay::one_set};
+
+/// True if shading reads the visibility buffer as an input attachment, in a subpass of its own.
+constexpr bool hasSubpasses(FrameWay way)
+{
+    return way != FrameWay::separate;
+}
 
 /// Way in which shading finds the pixels of a material.
 enum class MaterialTest : uint8_t

@@ -59,7 +59,7 @@ Step shadingStep(const FrameConfiguration& c)
               .draws = {.cover = c.material_tiles ? Cover::tiles : Cover::triangle,
                         .discards = !by_depth,
                         .writes_fragment_depth = by_depth}};
-    if (c.way == FrameWay::merged)
+    if (hasSubpasses(c.way))
         step.attachments.push_back({Resource::visibility, Access::input});
     else
         step.uses.push_back({Resource::visibility, Access::fragment_read});
@@ -78,7 +78,7 @@ bool splitsAtVisibility(const FrameConfiguration& c)
     // the pyramid needs the scene's depth, which the numbers of materials overwrite
     const bool loses_depth =
         c.occlusion == OcclusionCulling::last_frame && c.materials == MaterialTest::depth;
-    return c.way == FrameWay::separate || c.material_tiles || c.gathers_light || c.in_parts || loses_depth;
+    return !hasSubpasses(c.way) || c.material_tiles || c.gathers_light || c.in_parts || loses_depth;
 }
 
 std::vector<Step> listSteps(const FrameConfiguration& c)
@@ -158,10 +158,10 @@ std::vector<Pass> joinSteps(const FrameConfiguration& c, const std::vector<Step>
             continue;
         }
         Pass pass{.kind = step.kind, .steps = {step.step}, .uses = step.uses, .host_write = step.host_write};
-        const bool is_merged = c.way == FrameWay::merged;
-        if (is_merged && drawsVisibility(step.step))
+        const bool has_subpasses = hasSubpasses(c.way);
+        if (has_subpasses && drawsVisibility(step.step))
             pass.subpasses = {makeSubpass(step), makeEmptySubpass(shadingStep(c))};
-        else if (is_merged && step.step == FrameStep::shading)
+        else if (has_subpasses && step.step == FrameStep::shading)
             pass.subpasses = {makeEmptySubpass(visibilityStep(FrameStep::visibility, Content::keep)),
                               makeSubpass(step)};
         else if (step.kind == PassKind::render)

@@ -12,7 +12,7 @@ namespace hearth::gpu
 namespace
 {
 
-constexpr const char* kWayNames[] = {"merged", "separate"};
+constexpr const char* kWayNames[] = {"merged", "separate", "one-set"};
 constexpr const char* kOcclusionNames[] = {"off", "last-frame", "two-phase"};
 constexpr const char* kMaterialTestNames[] = {"depth", "id"};
 constexpr const char* kLoadNames[] = {"none", "clear", "load"};

@@ -21,14 +21,13 @@ struct DeviceFact
 };
 
 constexpr DeviceFact kFacts[] = {
-    // Crashes at subpassLoad, and not where the same shader samples an image:
-    // https://github.com/godotengine/godot/issues/112530, https://github.com/godotengine/godot/pull/113823
-    {kVendorArm, "Mali-G52", FrameWay::separate},
-    // The same crash: https://github.com/godotengine/godot/pull/114785
-    {kVendorArm, "Mali-G72", FrameWay::separate},
-    {kVendorArm, "Mali-G76", FrameWay::separate},
-    // Does not merge subpasses, so nothing is saved by them; nor does the G76 of the same report:
+    // Crash at subpassLoad in shaders of several descriptor sets, and not in those of one:
+    // https://github.com/godotengine/godot/issues/112530, https://github.com/godotengine/godot/pull/114785
+    {kVendorArm, "Mali-G52", FrameWay::one_set},
+    {kVendorArm, "Mali-G72", FrameWay::one_set},
+    // Do not merge subpasses, so nothing is saved by them, and the G76 crashes as the two above:
     // https://community.arm.com/support-forums/f/graphics-gaming-and-vr-forum/54380
+    {kVendorArm, "Mali-G76", FrameWay::separate},
     {kVendorArm, "Mali-G77", FrameWay::separate},
     // Input attachments break in shaders with specialization constants, even unused ones, and all that shade
     // have some. Mesa's driver names its devices "Turnip Adreno":

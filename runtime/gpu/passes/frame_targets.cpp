@@ -99,7 +99,7 @@ Status FrameTargets::createImages(const Device& device, const FramePasses& passe
                         .kind = on_tile ? MemoryKind::transient : MemoryKind::device}));
         return success();
     };
-    const bool is_input = passes.way() == FrameWay::merged;
+    const bool is_input = hasSubpasses(passes.way());
     HEARTH_TRY(create(visibility_, FrameResource::visibility, kVisibilityFormat,
                       VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
                           (is_input ? VkImageUsageFlags{VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT} : 0),
@@ -211,7 +211,7 @@ Status FrameTargets::createSets(const Device& device, const DrawLayouts& layouts
     HEARTH_ASSIGN_OR_RETURN(pool_, createDescriptorPool(device, 2 + kMaxFramesInFlight, sizes));
     HEARTH_ASSIGN_OR_RETURN(set_, allocateSet(device, pool_.get(), layouts.attachments.get()));
     DescriptorWriter attachments(set_);
-    if (way == FrameWay::merged)
+    if (hasSubpasses(way))
         attachments.input(shared::kAttachmentVisibility, visibility_.view.get());
     else
         attachments.texture(shared::kAttachmentVisibility, visibility_.view.get(), texel_sampler_.get());

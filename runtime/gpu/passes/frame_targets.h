@@ -7,8 +7,10 @@
 #include "runtime/gpu/frame/frame_passes.h"
 #include "runtime/gpu/passes/gather_targets.h"
 #include "runtime/gpu/scene/draw_layouts.h"
+#include "runtime/gpu/scene/joined_sets.h"
 #include "runtime/gpu/scene/scene_frames.h"
 
+#include <memory>
 #include <optional>
 
 namespace hearth::gpu
@@ -48,7 +50,7 @@ public:
     const Image& color() const { return color_; }
     /// Framebuffer of a PassFamily.
     VkFramebuffer framebuffer(uint32_t family) const { return framebuffers_[family].get(); }
-    VkDescriptorSet attachments() const { return set_; }
+    AttachmentSet attachments() const { return {set_, identity_}; }
     VkDeviceSize allocatedBytes() const { return arena_.allocatedBytes(); }
     /// Bytes of attachments that exist on the tile only, where the device has lazily allocated memory;
     /// allocatedBytes leaves them out.
@@ -105,6 +107,7 @@ private:
     UniqueSampler texel_sampler_;
     UniqueDescriptorPool pool_;
     VkDescriptorSet set_ = VK_NULL_HANDLE;
+    std::shared_ptr<const TargetsIdentity> identity_ = std::make_shared<TargetsIdentity>();
     /// Views of a frame's occlusion tests, for each frame in flight.
     struct OcclusionViews
     {

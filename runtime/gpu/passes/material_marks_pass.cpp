@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/passes/material_marks_pass.h"
 
+#include "runtime/gpu/passes/shading_binder.h"
 #include "runtime/gpu/passes/visibility_reading.h"
 
 #include <algorithm>
@@ -36,13 +37,9 @@ Result<MaterialMarksPass> MaterialMarksPass::create(const Device& device, const 
 void MaterialMarksPass::record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                                const Scene& scene, const FrameTargets& targets) const
 {
-    const VkPipelineLayout layout = layouts.shading.get();
-    const VkDescriptorSet attachments = targets.attachments();
+    const ShadingBinder binder(device, commands, layouts, scene, targets);
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.get());
-    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, shared::kSetScene, 1,
-                                      &scene.frame().main.draw_set, 0, nullptr);
-    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout,
-                                      shared::kSetAttachments, 1, &attachments, 0, nullptr);
+    binder.bindSurfaces();
     // one draw for the depth; one for each bit that the stencil needs
     const auto largest = static_cast<uint32_t>(scene.materials.size());
     const uint32_t draws = materials_ == MaterialTest::depth
@@ -54,7 +51,7 @@ void MaterialMarksPass::record(const Device& device, VkCommandBuffer commands, c
         push.material = bit;
         if (materials_ == MaterialTest::id)
             device.vk.vkCmdSetStencilWriteMask(commands, VK_STENCIL_FACE_FRONT_AND_BACK, 1u << bit);
-        device.vk.vkCmdPushConstants(commands, layout, kShadingPushStages, 0, sizeof(push), &push);
+        device.vk.vkCmdPushConstants(commands, binder.layout(), kShadingPushStages, 0, sizeof(push), &push);
         device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
     }
 }

@@ -2,6 +2,7 @@
 #include "runtime/gpu/passes/shading_pass.h"
 
 #include "runtime/gpu/passes/material_marks_pass.h"
+#include "runtime/gpu/passes/shading_binder.h"
 #include "runtime/gpu/passes/visibility_reading.h"
 
 #include <algorithm>
@@ -45,7 +46,7 @@ uint32_t skyOcclusion(const Scene& scene, const ShadingSettings& view)
 GraphicsDescription ShadingPass::describe(std::span<const uint32_t> fragment, VkPipelineLayout layout) const
 {
     const bool by_depth = material_test_ == MaterialTest::depth;
-    return {.vertex = shaders::shaded_area_vert,
+    return {.vertex = shaders::shaded_area_vert[shaderVariant(way_)],
             .fragment = fragment,
             .layout = layout,
             .render_pass = place_.render_pass,
@@ -183,7 +184,7 @@ void ShadingPass::record(const Device& device, VkCommandBuffer commands, const D
     {
     case ViewShader::materials:
     case ViewShader::surface:
-        return recordMaterials(device, commands, layouts, scene, view);
+        return recordMaterials(device, commands, layouts, scene, targets, view);
     case ViewShader::clusters:
         return recordClusterView(device, commands, layouts, scene, targets, view);
     case ViewShader::shadow_maps:
@@ -201,14 +202,10 @@ void ShadingPass::recordSky(const Device& device, VkCommandBuffer commands, cons
                             const Scene& scene, const FrameTargets& targets,
                             const ShadingSettings& view) const
 {
-    const VkPipelineLayout layout = layouts.shading.get();
-    const VkDescriptorSet attachments = targets.attachments();
-    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, shared::kSetScene, 1,
-                                      &scene.frame().main.draw_set, 0, nullptr);
-    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout,
-                                      shared::kSetAttachments, 1, &attachments, 0, nullptr);
+    const ShadingBinder binder(device, commands, layouts, scene, targets);
+    binder.bindSurfaces();
     const shared::ShadingPush push = shadingPush(view, 0);
-    device.vk.vkCmdPushConstants(commands, layout, kShadingPushStages, 0, sizeof(push), &push);
+    device.vk.vkCmdPushConstants(commands, binder.layout(), kShadingPushStages, 0, sizeof(push), &push);
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, sky_.get());
     setStencil(device, commands, 0);
     if (shadesTiles(scene, view.area))
@@ -223,11 +220,9 @@ void ShadingPass::recordClusterView(const Device& device, VkCommandBuffer comman
                                     const FrameTargets& targets, const ShadingSettings& view) const
 {
     const VkPipelineLayout layout = layouts.clusters.get();
-    const VkDescriptorSet sets[] = {scene.frame().cluster_view_set, targets.attachments()};
     const shared::ShadingPush push = shadingPush(view, shared::kEverySurface);
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, cluster_views_.get());
-    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, shared::kSetTables,
-                                      2, sets, 0, nullptr);
+    ShadingBinder(device, commands, layouts, scene, targets).bindClusters();
     device.vk.vkCmdPushConstants(commands, layout, kShadingPushStages, 0, sizeof(push), &push);
     device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
 }
@@ -273,9 +268,10 @@ void ShadingPass::recordGiView(const Device& device, VkCommandBuffer commands, c
 
 /// Uses the sets that recordSky has bound.
 void ShadingPass::recordMaterials(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
-                                  const Scene& scene, const ShadingSettings& view) const
+                                  const Scene& scene, const FrameTargets& targets,
+                                  const ShadingSettings& view) const
 {
-    const VkPipelineLayout layout = layouts.shading.get();
+    const ShadingBinder binder(device, commands, layouts, scene, targets);
     const VkBuffer draws =
         (shadesTiles(scene, view.area) ? scene.frame().tile_draws : scene.frame().main.material_draws)
             .handle.get();
@@ -291,9 +287,8 @@ void ShadingPass::recordMaterials(const Device& device, VkCommandBuffer commands
         const uint32_t number = row + 1; // 0 is the sky
         const shared::ShadingPush push = shadingPush(view, number, sky_occlusion);
         setStencil(device, commands, number);
-        device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout,
-                                          shared::kSetMaterial, 1, &material.set, 0, nullptr);
-        device.vk.vkCmdPushConstants(commands, layout, kShadingPushStages, 0, sizeof(push), &push);
+        binder.bindMaterial(row);
+        device.vk.vkCmdPushConstants(commands, binder.layout(), kShadingPushStages, 0, sizeof(push), &push);
         // draws nothing where the material is not visible
         device.vk.vkCmdDrawIndirect(commands, draws, number * sizeof(VkDrawIndirectCommand), 1,
                                     sizeof(VkDrawIndirectCommand));

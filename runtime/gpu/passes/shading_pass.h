@@ -86,7 +86,7 @@ private:
     void recordGiView(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                       const Scene& scene, const ShadingSettings& view) const;
     void recordMaterials(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
-                         const Scene& scene, const ShadingSettings& view) const;
+                         const Scene& scene, const FrameTargets& targets, const ShadingSettings& view) const;
 
     GraphicsDescription describe(std::span<const uint32_t> fragment, VkPipelineLayout layout) const;
     GraphicsDescription describeSurfaceView(std::span<const uint32_t> fragment,

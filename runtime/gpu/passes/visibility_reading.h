@@ -1,22 +1,26 @@
-// Descriptor and compiled shaders by which shading reads the visibility buffer, for each way through a frame.
+// Descriptors and compiled shaders by which shading reads the visibility buffer, for each way through a frame.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
 #include "runtime/gpu/frame/frame_description.h"
+#include "runtime/gpu/scene/draw_layouts.h"
 #include "runtime/shaders/shaders.h"
 
 namespace hearth::gpu
 {
 
-constexpr VkDescriptorType visibilityDescriptor(FrameWay way)
+constexpr ShadingDescriptors shadingDescriptors(FrameWay way)
 {
-    return way == FrameWay::merged ? VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT
-                                   : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    return {.visibility = hasSubpasses(way) ? VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT
+                                            : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
+            .one_set = way == FrameWay::one_set};
 }
 
 constexpr shaders::Variant shaderVariant(FrameWay way)
 {
-    return way == FrameWay::merged ? shaders::kReadsInput : shaders::kReadsSampled;
+    if (!hasSubpasses(way))
+        return shaders::kReadsSampled;
+    return way == FrameWay::one_set ? shaders::kReadsInputOfOneSet : shaders::kReadsInput;
 }
 
 } // namespace hearth::gpu

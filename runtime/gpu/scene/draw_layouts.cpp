@@ -18,13 +18,22 @@ constexpr VkShaderStageFlags kComputeStage = VK_SHADER_STAGE_COMPUTE_BIT;
 static_assert(shared::kSceneDeformation == shared::kScenePool + shared::kDeformationSlice);
 static_assert(shared::kSceneLighting == shared::kScenePool + shared::kPoolSlices);
 
+std::vector<SetBinding> join(std::initializer_list<std::span<const SetBinding>> sets)
+{
+    std::vector<SetBinding> joined;
+    for (const std::span<const SetBinding> set : sets)
+        joined.insert(joined.end(), set.begin(), set.end());
+    return joined;
+}
+
 } // namespace
 
-Status DrawLayouts::createSceneSets(const Device& device)
+ShadingBindings shadingBindings(VkDescriptorType visibility)
 {
     // the skinning pass and the pass that chooses gather points read the scene like vertex shaders
     constexpr VkShaderStageFlags kAll = kVertexStage | kFragmentStage | kComputeStage;
-    std::vector<SetBinding> scene_bindings = {
+    ShadingBindings bindings;
+    bindings.scene = {
         uniformBinding(shared::kSceneFrame, kAll),
         storageBinding(shared::kSceneInstances, kAll),
         storageBinding(shared::kSceneVisible, kAll),
@@ -37,32 +46,42 @@ Status DrawLayouts::createSceneSets(const Device& device)
         textureBinding(shared::kSceneSkyTable, kFragmentStage),
     };
     for (uint32_t slice = 0; slice < shared::kPoolSlices; ++slice)
-        scene_bindings.push_back(storageBinding(shared::kScenePool + slice, kAll));
-    HEARTH_ASSIGN_OR_RETURN(scene, createSetLayout(device, scene_bindings));
+        bindings.scene.push_back(storageBinding(shared::kScenePool + slice, kAll));
 
-    std::vector<SetBinding> material_bindings = {
-        uniformBinding(shared::kMaterialBlock, kVertexStage | kFragmentStage),
-        uniformBinding(shared::kMaterialLayers, kFragmentStage)};
+    bindings.material = {uniformBinding(shared::kMaterialBlock, kVertexStage | kFragmentStage),
+                         uniformBinding(shared::kMaterialLayers, kFragmentStage)};
     static_assert(shared::kMaterialLayers == shared::kMaterialTextures + shared::kTextureCount);
     for (uint32_t slot = 0; slot < shared::kTextureCount; ++slot)
-        material_bindings.push_back(textureBinding(shared::kMaterialTextures + slot, kFragmentStage));
-    HEARTH_ASSIGN_OR_RETURN(material, createSetLayout(device, material_bindings));
+        bindings.material.push_back(textureBinding(shared::kMaterialTextures + slot, kFragmentStage));
 
+    bindings.visibility = {{shared::kAttachmentVisibility, visibility, kFragmentStage}};
+    bindings.attachments = {bindings.visibility.front(),
+                            storageBinding(shared::kAttachmentTileLists, kVertexStage),
+                            textureBinding(shared::kAttachmentGi, kFragmentStage)};
+    bindings.cluster_views = tableBindings(kClusterViewTables, kFragmentStage);
+    return bindings;
+}
+
+Status DrawLayouts::createShadingSets(const Device& device, const ShadingDescriptors& descriptors)
+{
+    const ShadingBindings bindings = shadingBindings(descriptors.visibility);
+    HEARTH_ASSIGN_OR_RETURN(scene, createSetLayout(device, bindings.scene));
+    HEARTH_ASSIGN_OR_RETURN(material, createSetLayout(device, bindings.material));
+    HEARTH_ASSIGN_OR_RETURN(attachments, createSetLayout(device, bindings.attachments));
+    HEARTH_ASSIGN_OR_RETURN(cluster_view, createSetLayout(device, bindings.cluster_views));
     const SetBinding bin_bindings[] = {storageBinding(shared::kBinsDraws, kVertexStage)};
     HEARTH_ASSIGN_OR_RETURN(bins, createSetLayout(device, bin_bindings));
-    HEARTH_ASSIGN_OR_RETURN(cluster_view,
-                            createSetLayout(device, tableBindings(kClusterViewTables, kFragmentStage)));
+    if (!descriptors.one_set)
+        return success();
+    HEARTH_ASSIGN_OR_RETURN(joined_shading, createSetLayout(device, join({bindings.scene, bindings.material,
+                                                                          bindings.attachments})));
+    HEARTH_ASSIGN_OR_RETURN(joined_clusters,
+                            createSetLayout(device, join({bindings.cluster_views, bindings.visibility})));
     return success();
 }
 
-Status DrawLayouts::createFrameSets(const Device& device, VkDescriptorType visibility_type)
+Status DrawLayouts::createFrameSets(const Device& device)
 {
-    const SetBinding attachment_bindings[] = {
-        {shared::kAttachmentVisibility, visibility_type, kFragmentStage},
-        storageBinding(shared::kAttachmentTileLists, kVertexStage),
-        textureBinding(shared::kAttachmentGi, kFragmentStage)};
-    HEARTH_ASSIGN_OR_RETURN(attachments, createSetLayout(device, attachment_bindings));
-
     const SetBinding occlusion_bindings[] = {uniformBinding(shared::kOcclusionViews, kComputeStage),
                                              storageBinding(shared::kOcclusionPyramid, kComputeStage),
                                              textureBinding(shared::kOcclusionDepth, kComputeStage)};
@@ -109,25 +128,29 @@ Status DrawLayouts::createPipelineLayouts(const Device& device)
                                            {shared::kSetBins, bins.get()}};
     HEARTH_ASSIGN_OR_RETURN(
         visibility, createPipelineLayout(device, visibility_sets, kBinPushStages, sizeof(shared::BinPush)));
-    const auto createShading = [&](std::span<const NumberedSet> sets)
+    const auto createShading = [&](const std::vector<NumberedSet>& sets)
     { return createPipelineLayout(device, sets, kShadingPushStages, sizeof(shared::ShadingPush)); };
-    const NumberedSet shading_sets[] = {{shared::kSetScene, scene.get()},
-                                        {shared::kSetMaterial, material.get()},
-                                        {shared::kSetAttachments, attachments.get()}};
+    std::vector<NumberedSet> shading_sets = {{shared::kSetScene, scene.get()},
+                                             {shared::kSetMaterial, material.get()},
+                                             {shared::kSetAttachments, attachments.get()}};
+    std::vector<NumberedSet> cluster_sets = {{shared::kSetTables, cluster_view.get()},
+                                             {shared::kSetClusterAttachments, attachments.get()}};
+    if (joinsSets())
+    {
+        shading_sets = {{kJoinedSet, joined_shading.get()}};
+        cluster_sets = {{kJoinedSet, joined_clusters.get()}};
+    }
     HEARTH_ASSIGN_OR_RETURN(shading, createShading(shading_sets));
-    const NumberedSet cluster_sets[] = {{shared::kSetTables, cluster_view.get()},
-                                        {shared::kSetClusterAttachments, attachments.get()}};
     HEARTH_ASSIGN_OR_RETURN(clusters, createShading(cluster_sets));
-    const NumberedSet brick_sets[] = {{shared::kSetBricks, bricks.get()}};
-    HEARTH_ASSIGN_OR_RETURN(brick_views, createShading(brick_sets));
+    HEARTH_ASSIGN_OR_RETURN(brick_views, createShading({{shared::kSetBricks, bricks.get()}}));
     return success();
 }
 
-Result<DrawLayouts> DrawLayouts::create(const Device& device, VkDescriptorType visibility)
+Result<DrawLayouts> DrawLayouts::create(const Device& device, const ShadingDescriptors& descriptors)
 {
     DrawLayouts layouts;
-    HEARTH_TRY(layouts.createSceneSets(device));
-    HEARTH_TRY(layouts.createFrameSets(device, visibility));
+    HEARTH_TRY(layouts.createShadingSets(device, descriptors));
+    HEARTH_TRY(layouts.createFrameSets(device));
     HEARTH_TRY(layouts.createBrickSets(device));
     HEARTH_TRY(layouts.createPipelineLayouts(device));
     return layouts;

@@ -26,6 +26,29 @@ inline constexpr VkShaderStageFlags kShadingPushStages =
 /// Values of the specialization constants of drawing, by id: shared::kConstant*.
 using DrawConstants = std::array<uint32_t, shared::kConstantCount>;
 
+/// Descriptors by which shading gets what it reads.
+struct ShadingDescriptors
+{
+    /// Type of kAttachmentVisibility: an input attachment, or an image with its sampler.
+    VkDescriptorType visibility = VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT;
+    /// The sets of a shading pipeline are joined to one: see joined_sets.h.
+    bool one_set = false;
+};
+
+/// Number of the set that shading has in place of all others, with ShadingDescriptors::one_set.
+inline constexpr uint32_t kJoinedSet = 0;
+
+/// Bindings of the sets of shading.
+struct ShadingBindings
+{
+    std::vector<SetBinding> scene;         ///< shared::kScene*
+    std::vector<SetBinding> material;      ///< shared::kMaterial*
+    std::vector<SetBinding> attachments;   ///< shared::kAttachment*
+    std::vector<SetBinding> cluster_views; ///< kClusterViewTables
+    std::vector<SetBinding> visibility; ///< shared::kAttachmentVisibility, all that cluster views read beside
+};
+ShadingBindings shadingBindings(VkDescriptorType visibility);
+
 struct DrawLayouts
 {
     UniqueSetLayout scene;            ///< shared::kScene*
@@ -35,6 +58,8 @@ struct DrawLayouts
     UniqueSetLayout occlusion;        ///< shared::kOcclusion*: culling and pyramid passes
     UniqueSetLayout tiles;            ///< shared::kTiles*: material-tiles pass
     UniqueSetLayout cluster_view;     ///< kClusterViewTables
+    UniqueSetLayout joined_shading;   ///< scene, material, attachments; with ShadingDescriptors::one_set
+    UniqueSetLayout joined_clusters;  ///< cluster_view and visibility buffer; with the same
     UniqueSetLayout bricks;           ///< shared::kBricks*
     UniqueSetLayout fresh_light;      ///< shared::kFreshLight*
     UniqueSetLayout gather_point;     ///< shared::kGatherPoint*
@@ -44,12 +69,14 @@ struct DrawLayouts
     UniquePipelineLayout clusters;    ///< cluster_view, attachments: debug views of clusters
     UniquePipelineLayout brick_views; ///< bricks: debug views of bricks
 
-    /// visibility  type of kAttachmentVisibility: an input attachment, or an image with its sampler
-    static Result<DrawLayouts> create(const Device& device, VkDescriptorType visibility);
+    static Result<DrawLayouts> create(const Device& device, const ShadingDescriptors& descriptors);
+
+    /// True with ShadingDescriptors::one_set.
+    bool joinsSets() const { return joined_shading.get() != VK_NULL_HANDLE; }
 
 private:
-    Status createSceneSets(const Device& device);
-    Status createFrameSets(const Device& device, VkDescriptorType visibility_type);
+    Status createShadingSets(const Device& device, const ShadingDescriptors& descriptors);
+    Status createFrameSets(const Device& device);
     Status createBrickSets(const Device& device);
     Status createPipelineLayouts(const Device& device);
 };

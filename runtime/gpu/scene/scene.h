@@ -5,6 +5,7 @@
 
 #include "formats/gpu_shared/shading.h"
 #include "runtime/gpu/scene/draw_layouts.h"
+#include "runtime/gpu/scene/joined_sets.h"
 #include "runtime/gpu/scene/scene_bricks.h"
 #include "runtime/gpu/scene/scene_deformation.h"
 #include "runtime/gpu/scene/scene_frames.h"
@@ -116,7 +117,8 @@ struct Scene
     std::vector<Image> images;
     std::vector<UniqueSampler> samplers;
     UniqueDescriptorPool pool;
-    std::vector<SceneMaterial> materials; ///< rows of the material table
+    std::vector<SceneMaterial> materials;    ///< rows of the material table
+    std::unique_ptr<JoinedSets> joined_sets; ///< with ShadingDescriptors::one_set only
 
     std::unique_ptr<SceneStream> stream;             ///< streamed scenes only
     std::unique_ptr<SceneDeformation> deformation;   ///< scenes with deformed meshes only

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/material_tiles.h"
 #include "runtime/gpu/scene/scene.h"
-#include "runtime/gpu/scene/scene_boxes.h"
 #include "runtime/gpu/scene/scene_shading.h"
 #include "runtime/gpu/scene/scene_shadows.h"
 #include "runtime/gpu/scene/scene_tables.h"
 #include "runtime/pack/cut.h"
+#include "runtime/pack/scene_boxes.h"
 
 #include <algorithm>
 #include <cstring>
@@ -402,7 +402,7 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
     scene->slot_capacity = static_cast<uint32_t>(std::min<uint64_t>(
         layout.instanced_clusters, std::min(options.max_visible_clusters, shared::kMaxSlots)));
     scene->used_slices = layout.pool.slice_words[1] == 0 ? 1 : shared::kPoolSlices;
-    scene->bounds = sceneBounds(pack);
+    scene->bounds = pack::sceneBounds(pack);
 
     if (!layout.deformation.words.empty())
         scene->deformation = makeDeformation(device, options.deformation, layout, group_items.rigid_items);

@@ -252,6 +252,21 @@ void DescriptorWriter::write(const Device& device)
                                      nullptr);
 }
 
+DescriptorCopier& DescriptorCopier::copy(VkDescriptorSet from, VkDescriptorSet to,
+                                         std::span<const SetBinding> bindings)
+{
+    for (const SetBinding& binding : bindings)
+        copies_.push_back({VK_STRUCTURE_TYPE_COPY_DESCRIPTOR_SET, nullptr, from, binding.binding, 0, to,
+                           binding.binding, 0, 1});
+    return *this;
+}
+
+void DescriptorCopier::write(const Device& device) const
+{
+    device.vk.vkUpdateDescriptorSets(device.handle, 0, nullptr, static_cast<uint32_t>(copies_.size()),
+                                     copies_.data());
+}
+
 Result<UniqueDescriptorPool> createDescriptorPool(const Device& device, uint32_t set_count,
                                                   const DescriptorPoolSizes& sizes)
 {

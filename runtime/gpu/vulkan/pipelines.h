@@ -113,6 +113,18 @@ private:
     std::vector<PendingWrite> entries_;
 };
 
+/// Collects copies from one descriptor set to another.
+class DescriptorCopier
+{
+public:
+    /// Copy the descriptors of these bindings, which both sets have.
+    DescriptorCopier& copy(VkDescriptorSet from, VkDescriptorSet to, std::span<const SetBinding> bindings);
+    void write(const Device& device) const;
+
+private:
+    std::vector<VkCopyDescriptorSet> copies_;
+};
+
 struct DescriptorPoolSizes
 {
     uint32_t uniforms = 0;

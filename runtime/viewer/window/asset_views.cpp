@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/window/asset_views.h"
 
-#include "runtime/gpu/scene/scene_boxes.h"
+#include "runtime/pack/scene_boxes.h"
 #include "runtime/viewer/contact_sheet.h"
 
 #include <cstdio>
@@ -27,7 +27,7 @@ AssetViews makeAssetViews(const formats::PackView& pack, const pack::PosePlayer&
     AssetViews views;
     if (drawn.size() < 2)
         return views;
-    std::vector<formats::Range> parts{gpu::allInstances(pack)};
+    std::vector<formats::Range> parts{pack::allInstances(pack)};
     for (const uint32_t asset : drawn)
         parts.push_back(pack.assets()[asset].instances);
     Stage stage = Stage::fromInstances(pack, player, parts, aspect);

@@ -130,7 +130,8 @@ TEST_F(CApiTest, descriptionsOfVersionOneOneAreTaken)
 TEST_F(CApiTest, everyWayThroughAFrameDrawsTheSame)
 {
     hearth_renderer_description description = c_caller_description(caller_);
-    for (const uint32_t way : {HEARTH_FRAME_AUTOMATIC, HEARTH_FRAME_MERGED, HEARTH_FRAME_SEPARATE})
+    for (const uint32_t way :
+         {HEARTH_FRAME_AUTOMATIC, HEARTH_FRAME_MERGED, HEARTH_FRAME_SEPARATE, HEARTH_FRAME_ONE_SET})
     {
         description.frame_way = way;
         recreateRenderer(description);

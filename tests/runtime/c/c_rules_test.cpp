@@ -235,7 +235,7 @@ TEST_F(CApiTest, otherVersionsAreRefused)
     description.features = 1u << 31;
     EXPECT_EQ(hearth_renderer_create(&description, &renderer, nullptr, 0), HEARTH_ERROR_USAGE);
     description = c_caller_description(caller_);
-    description.frame_way = 3;
+    description.frame_way = HEARTH_FRAME_ONE_SET + 1;
     EXPECT_EQ(hearth_renderer_create(&description, &renderer, nullptr, 0), HEARTH_ERROR_USAGE);
     description = c_caller_description(caller_);
     description.device = VK_NULL_HANDLE;

@@ -154,8 +154,7 @@ TEST_F(BrickLightTest, marchesLikeTheCpuToTheBit)
         arena.createBuffer(rays.size() * sizeof(TestRay), kUsage, gpu::MemoryKind::device).value();
     const gpu::Buffer hit_buffer =
         arena.createBuffer(2 * rays.size() * sizeof(TestHit), kUsage, gpu::MemoryKind::device).value();
-    const gpu::DrawLayouts layouts =
-        gpu::DrawLayouts::create(device, VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT).value();
+    const gpu::DrawLayouts layouts = gpu::DrawLayouts::create(device, {}).value();
     const gpu::NumberedSet set_layouts[] = {{shared::kSetBricks, layouts.bricks.get()},
                                             {shared::kSetFreshLight, layouts.fresh_light.get()}};
     const gpu::ComputePipeline pipeline =

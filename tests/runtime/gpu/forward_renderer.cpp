@@ -144,7 +144,7 @@ gpu::UniquePipelineLayout createForwardLayout(const gpu::Device& device, const g
 ForwardRenderer::ForwardRenderer(viewer::VulkanHost& host, const gpu::Device& device)
     : host_(host),
       device_(device),
-      layouts_(take(gpu::DrawLayouts::create(device, VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT))),
+      layouts_(take(gpu::DrawLayouts::create(device, {}))),
       forward_layout_(createForwardLayout(device, layouts_)),
       forward_pass_(createForwardPass(device)),
       derivatives_pass_(createDerivativesPass(device))
@@ -269,7 +269,7 @@ std::vector<std::array<float, 4>> ForwardRenderer::uvDerivatives(const gpu::Scen
         {
             begin(commands, derivatives_pass_.get(), framebuffer.get(), extent);
             const VkDescriptorSet sets[] = {scene.frame().main.draw_set, scene.materials[0].set,
-                                            targets.attachments()};
+                                            targets.attachments().set};
             const shared::ShadingPush push{};
             device_.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.get());
             device_.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout,

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/pack/pose_player.h"
 
-#include "runtime/gpu/scene/scene_boxes.h"
+#include "runtime/pack/scene_boxes.h"
 #include "runtime/viewer/camera_fit.h"
 #include "tests/runtime/gpu/animated_rocks.h"
 #include "tests/runtime/gpu/deformed_scene.h"
@@ -101,9 +101,9 @@ TEST(SceneBoxes, followWhatMoves)
     fillAnimatedRocks(test, test.addMesh(withMaterial(shapes::rock(8, 0.2f), kInvalidIndex)));
     const formats::PackView pack = test.build();
     pack::PosePlayer player(pack);
-    const Box3 rest = gpu::sceneBounds(pack);
+    const Box3 rest = pack::sceneBounds(pack);
     player.play({1, 4});
-    const Box3 risen = gpu::sceneBounds(pack, player);
+    const Box3 risen = pack::sceneBounds(pack, player);
     EXPECT_NEAR(risen.max.y, rest.max.y + 4, 1e-5f);
     EXPECT_EQ(risen.min, rest.min);
 }

@@ -272,6 +272,19 @@ TEST(FramePasses, separateTakeTheBytesOfUnmergedSubpasses)
         }
 }
 
+TEST(FramePasses, oneSetHasThePassesOfMergedSubpasses)
+{
+    for (const MaterialTest materials : {MaterialTest::depth, MaterialTest::id})
+        for (FrameConfiguration c : allConfigurations(FrameWay::one_set, materials))
+        {
+            const FrameDescription one_set = describeFrame(c);
+            c.way = FrameWay::merged;
+            FrameDescription merged = describeFrame(c);
+            merged.configuration.way = FrameWay::one_set;
+            EXPECT_EQ(formatFrameJson(one_set), formatFrameJson(merged));
+        }
+}
+
 TEST(FramePasses, partsLeaveTheSameImageStatesOnEveryWay)
 {
     const auto layouts = [](const Pass& pass)
@@ -442,7 +455,7 @@ TEST(FrameLint, findsAPlantedErrorOfEachRule)
 TEST(FrameWays, areChosenByWhatIsKnownOfADevice)
 {
     constexpr uint32_t kApple = 0x106B, kArm = 0x13B5, kQualcomm = 0x5143;
-    EXPECT_EQ(chooseFrameWay({kArm, "Mali-G52"}), FrameWay::separate);
+    EXPECT_EQ(chooseFrameWay({kArm, "Mali-G52"}), FrameWay::one_set);
     EXPECT_EQ(chooseFrameWay({kArm, "Mali-G76 MC4"}), FrameWay::separate);
     EXPECT_EQ(chooseFrameWay({kArm, "Mali-G77"}), FrameWay::separate);
     EXPECT_EQ(chooseFrameWay({kArm, "Mali-G720-Immortalis MC12"}), FrameWay::merged)

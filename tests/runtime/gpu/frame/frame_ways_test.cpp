@@ -56,17 +56,8 @@ protected:
                  bool last_frame = false, bool in_parts = false)
     {
         gpu::Renderer& r = findRenderer(options);
-        std::unique_ptr<gpu::Scene> scene;
-        run(
-            [&](VkCommandBuffer commands)
-            {
-                auto uploaded = r.upload(pack, commands, {.shadows = {.max_maps = 4}});
-                HEARTH_ASSERT(uploaded.ok());
-                scene = std::move(*uploaded);
-            });
-        scene->staging.reset();
-        auto targets = r.createTargets({shown.width, shown.height}, {.keeps_visibility = true});
-        HEARTH_ASSERT(targets.ok());
+        const std::unique_ptr<gpu::Scene> scene = uploadBy(r, pack);
+        gpu::FrameTargets targets = makeTargetsBy(r, {shown.width, shown.height});
         for (int frame = 0; frame < 2; ++frame)
             run(
                 [&](VkCommandBuffer commands)
@@ -76,12 +67,33 @@ protected:
                         .shading = {.debug_view = shown.debug_view, .area = shown.area},
                         .occludes_by_last_frame = last_frame};
                     if (!in_parts)
-                        return r.record(commands, *scene, *targets, input);
-                    r.recordCull(commands, *scene, *targets, input);
-                    r.recordVisibility(commands, *scene, *targets, input);
-                    r.recordMaterials(commands, *scene, *targets, input);
+                        return r.record(commands, *scene, targets, input);
+                    r.recordCull(commands, *scene, targets, input);
+                    r.recordVisibility(commands, *scene, targets, input);
+                    r.recordMaterials(commands, *scene, targets, input);
                 });
-        return readImage(*scene, *targets);
+        return readImage(*scene, targets);
+    }
+
+    std::unique_ptr<gpu::Scene> uploadBy(gpu::Renderer& r, const formats::PackView& pack)
+    {
+        std::unique_ptr<gpu::Scene> scene;
+        run(
+            [&](VkCommandBuffer commands)
+            {
+                auto uploaded = r.upload(pack, commands, {.shadows = {.max_maps = 4}});
+                HEARTH_ASSERT(uploaded.ok());
+                scene = std::move(*uploaded);
+            });
+        scene->staging.reset();
+        return scene;
+    }
+
+    static gpu::FrameTargets makeTargetsBy(const gpu::Renderer& r, VkExtent2D extent)
+    {
+        auto targets = r.createTargets(extent, {.keeps_visibility = true});
+        HEARTH_ASSERT(targets.ok());
+        return std::move(*targets);
     }
 
     void run(const std::function<void(VkCommandBuffer)>& record)
@@ -120,7 +132,7 @@ std::map<std::pair<std::optional<FrameWay>, MaterialTest>, std::unique_ptr<gpu::
 
 } // namespace
 
-TEST_F(FrameWaysTest, separatePassesDrawTheSameImage)
+TEST_F(FrameWaysTest, everyWayDrawsTheSameImage)
 {
     TestScene test;
     fillRocks(test, 12, 40);
@@ -128,20 +140,51 @@ TEST_F(FrameWaysTest, separatePassesDrawTheSameImage)
     const Image expected = drawBy({.way = FrameWay::merged}, pack, {});
     EXPECT_GT(std::set<uint32_t>(expected.color.begin(), expected.color.end()).size(), 100u);
     constexpr uint32_t kNoOcclusion = shared::kCullEverything & ~shared::kCullOcclusion;
-    for (const MaterialTest materials : {MaterialTest::depth, MaterialTest::id})
-        for (const ShadedArea area : {ShadedArea::wholeFrame, ShadedArea::tiles})
-        {
-            const gpu::RendererOptions options{.way = FrameWay::separate, .materials = materials};
-            const Image images[] = {drawBy(options, pack, {.area = area}),
-                                    drawBy(options, pack, {.flags = kNoOcclusion, .area = area}),
-                                    drawBy(options, pack, {.area = area}, true),
-                                    drawBy(options, pack, {.area = area}, false, true),
-                                    drawBy(options, pack, {.area = area}, true, true)};
-            for (const Image& image : images)
-                EXPECT_EQ(image.color, expected.color);
-            EXPECT_EQ(images[0].visibility, expected.visibility);
-            EXPECT_EQ(images[3].visibility, expected.visibility);
-        }
+    for (const FrameWay way : {FrameWay::separate, FrameWay::one_set})
+        for (const MaterialTest materials : {MaterialTest::depth, MaterialTest::id})
+            for (const ShadedArea area : {ShadedArea::wholeFrame, ShadedArea::tiles})
+            {
+                const gpu::RendererOptions options{.way = way, .materials = materials};
+                const Image images[] = {drawBy(options, pack, {.area = area}),
+                                        drawBy(options, pack, {.flags = kNoOcclusion, .area = area}),
+                                        drawBy(options, pack, {.area = area}, true),
+                                        drawBy(options, pack, {.area = area}, false, true),
+                                        drawBy(options, pack, {.area = area}, true, true)};
+                for (const Image& image : images)
+                    EXPECT_EQ(image.color, expected.color);
+                EXPECT_EQ(images[0].visibility, expected.visibility);
+                EXPECT_EQ(images[3].visibility, expected.visibility);
+            }
+}
+
+TEST_F(FrameWaysTest, joinedSetsFollowTheTargets)
+{
+    TestScene test;
+    fillRocks(test, 6, 0);
+    const formats::PackView pack = test.build();
+    gpu::Renderer& renderer = findRenderer({.way = FrameWay::one_set});
+    const auto scene = uploadBy(renderer, pack);
+    const auto draw = [&](gpu::FrameTargets& targets)
+    {
+        const auto [width, height] = targets.extent();
+        const gpu::FrameInput input{.view = makeView(*scene, kCamera, {.width = width, .height = height})};
+        run([&](VkCommandBuffer commands) { renderer.record(commands, *scene, targets, input); });
+        auto color = host().read(renderer.device(), targets.color(), 4);
+        HEARTH_ASSERT(color.ok());
+        return std::move(*color);
+    };
+    std::optional<gpu::FrameTargets> targets[] = {makeTargetsBy(renderer, {160, 120}),
+                                                  makeTargetsBy(renderer, {96, 128})};
+    const auto first = draw(*targets[0]), second = draw(*targets[1]);
+    EXPECT_NE(first.size(), second.size());
+    // each of the two frames in flight sees both targets, in turn and twice in a row
+    for (const size_t number : {0u, 0u, 1u, 1u, 0u, 1u, 1u, 0u, 0u, 0u})
+        EXPECT_EQ(draw(*targets[number]), number == 0 ? first : second);
+    // others may get the memory of targets that are gone
+    targets[0].reset();
+    targets[0].emplace(makeTargetsBy(renderer, {160, 120}));
+    for (int i = 0; i < 4; ++i)
+        EXPECT_EQ(draw(*targets[0]), first);
 }
 
 TEST_F(FrameWaysTest, materialsByIdAreMaterialsByDepth)
@@ -175,9 +218,9 @@ TEST_F(FrameWaysTest, everyDebugViewIsTheSame)
         const Image expected = drawBy({.materials = MaterialTest::depth}, pack, shown);
         EXPECT_EQ(drawBy({.materials = MaterialTest::id}, pack, shown).color, expected.color) << view.name;
         for (const MaterialTest materials : {MaterialTest::depth, MaterialTest::id})
-            EXPECT_EQ(drawBy({.way = FrameWay::separate, .materials = materials}, pack, shown).color,
-                      expected.color)
-                << view.name;
+            for (const FrameWay way : {FrameWay::separate, FrameWay::one_set})
+                EXPECT_EQ(drawBy({.way = way, .materials = materials}, pack, shown).color, expected.color)
+                    << view.name;
     }
 }
 

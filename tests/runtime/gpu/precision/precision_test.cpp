@@ -1,6 +1,7 @@
 // Tests which shaders compute in half precision: shading does, and nothing that decides what is visible or
 // where it is.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/frame/frame_description.h"
 #include "tests/runtime/gpu/precision/relaxed_precision.h"
 #include "tests/runtime/shaders/shader_list.h"
 
@@ -33,9 +34,9 @@ const std::map<std::string, double>& relaxedShares()
 /// Return the name of a shader without that of its way through a frame.
 std::string baseName(std::string name)
 {
-    constexpr std::string_view kVariant = "_sampled";
-    if (const size_t at = name.find(kVariant); at != std::string::npos)
-        name.erase(at, kVariant.size());
+    for (const std::string_view variant : {"_sampled", "_one_set"})
+        if (const size_t at = name.find(variant); at != std::string::npos)
+            name.erase(at, variant.size());
     return name;
 }
 
@@ -69,7 +70,7 @@ TEST(PrecisionTest, shadingIsRelaxed)
             EXPECT_DOUBLE_EQ(relaxedShare(relaxEverything(shader.words)), 100) << shader.name;
             ++found;
         }
-    EXPECT_EQ(found, 2 * relaxedShares().size()) << "of both ways through a frame";
+    EXPECT_EQ(found, std::size(gpu::kFrameWays) * relaxedShares().size()) << "of all ways through a frame";
 }
 
 TEST(PrecisionTest, allElseIsFull)

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/gpu/scene/scene_boxes.h"
+#include "runtime/pack/scene_boxes.h"
 
 #include "formats/codecs/cluster_bounds.h"
 
 #include <algorithm>
 
-namespace hearth::gpu
+namespace hearth::pack
 {
 
 namespace
 {
 
 /// Transforms of all instances in the pose of the player.
-std::vector<Affine3> computeTransforms(const formats::PackView& pack, const pack::PosePlayer& player)
+std::vector<Affine3> computeTransforms(const formats::PackView& pack, const PosePlayer& player)
 {
     std::vector<Affine3> transforms;
     transforms.reserve(pack.instances().size());
     for (const formats::InstanceRecord& instance : pack.instances())
         transforms.push_back(instance.world_from_object);
-    for (const pack::MovedInstance& moved : player.transforms())
+    for (const MovedInstance& moved : player.transforms())
         transforms[moved.instance] = moved.world_from_object;
     return transforms;
 }
@@ -34,13 +34,13 @@ void addTransformed(const Box3& box, const Affine3d& world_from_bind, std::vecto
 /// Call rigid(mesh, place) and deformed(mesh, record of DMSH, pose) for the instances of the range that have
 /// clusters.
 template <typename Rigid, typename Deformed>
-void visitInstances(const formats::PackView& pack, const pack::PosePlayer& player, formats::Range instances,
+void visitInstances(const formats::PackView& pack, const PosePlayer& player, formats::Range instances,
                     const Rigid& rigid, const Deformed& deformed)
 {
     const std::vector<Affine3> transforms = computeTransforms(pack, player);
     // ascending by instance
     auto posed = std::find_if(player.posed().begin(), player.posed().end(),
-                              [&](const pack::PosedInstance& p) { return p.instance >= instances.first; });
+                              [&](const PosedInstance& p) { return p.instance >= instances.first; });
     for (uint32_t i = instances.first; i < instances.first + instances.count; ++i)
     {
         const uint32_t number = pack.instances()[i].mesh;
@@ -49,7 +49,7 @@ void visitInstances(const formats::PackView& pack, const pack::PosePlayer& playe
         if (mesh.clusters.count > 0 && !is_posed)
             rigid(mesh, transforms[i]);
         else if (mesh.clusters.count > 0)
-            deformed(mesh, *pack::findDeformedMesh(pack, number), *posed);
+            deformed(mesh, *findDeformedMesh(pack, number), *posed);
         posed += is_posed ? 1 : 0;
     }
 }
@@ -57,11 +57,11 @@ void visitInstances(const formats::PackView& pack, const pack::PosePlayer& playe
 // Posing takes about 0.1 ms per cluster: more clusters take too long.
 constexpr size_t kMaxPosedClusters = 8192;
 
-size_t countDeformedClusters(const formats::PackView& pack, const pack::PosePlayer& player,
+size_t countDeformedClusters(const formats::PackView& pack, const PosePlayer& player,
                              formats::Range instances)
 {
     size_t count = 0;
-    for (const pack::PosedInstance& posed : player.posed())
+    for (const PosedInstance& posed : player.posed())
         if (posed.instance >= instances.first && posed.instance - instances.first < instances.count)
             count += pack.meshes()[pack.instances()[posed.instance].mesh].clusters.count;
     return count;
@@ -87,7 +87,7 @@ Affine3d blendedJoints(const formats::ClusterGeometry& geometry, uint32_t vertex
 }
 
 /// Bounds of the posed clusters in world space.
-Box3 posedBox(const formats::ClusterGeometry& geometry, const pack::PosedInstance& pose)
+Box3 posedBox(const formats::ClusterGeometry& geometry, const PosedInstance& pose)
 {
     Box3 box;
     for (uint32_t v = 0; v < geometry.vertexCount(); ++v)
@@ -101,8 +101,7 @@ Box3 posedBox(const formats::ClusterGeometry& geometry, const pack::PosedInstanc
 }
 
 /// Add boxes of the finest clusters of an instance in its pose. Skips pages that cannot be decoded.
-void addPosed(const formats::PackView& pack, const pack::PosedInstance& pose,
-              std::vector<TransformedBox>& boxes)
+void addPosed(const formats::PackView& pack, const PosedInstance& pose, std::vector<TransformedBox>& boxes)
 {
     const formats::MeshRecord& mesh = pack.meshes()[pack.instances()[pose.instance].mesh];
     for (uint32_t page = mesh.pages.first; page < mesh.pages.first + mesh.pages.count; ++page)
@@ -125,7 +124,7 @@ formats::Range allInstances(const formats::PackView& pack)
     return {0, static_cast<uint32_t>(pack.instances().size())};
 }
 
-std::vector<TransformedBox> instanceBoxes(const formats::PackView& pack, const pack::PosePlayer& player,
+std::vector<TransformedBox> instanceBoxes(const formats::PackView& pack, const PosePlayer& player,
                                           formats::Range instances)
 {
     std::vector<TransformedBox> boxes;
@@ -134,14 +133,13 @@ std::vector<TransformedBox> instanceBoxes(const formats::PackView& pack, const p
         [&](const formats::MeshRecord& mesh, const Affine3& place) {
             boxes.push_back({{mesh.box_min, mesh.box_max}, place});
         },
-        [&](const formats::MeshRecord&, const formats::DeformedMeshRecord& mesh,
-            const pack::PosedInstance& pose) {
+        [&](const formats::MeshRecord&, const formats::DeformedMeshRecord& mesh, const PosedInstance& pose) {
             addTransformed({mesh.box_min, mesh.box_max}, pose.world_from_bind[mesh.anchor], boxes);
         });
     return boxes;
 }
 
-std::vector<TransformedBox> clusterBoxes(const formats::PackView& pack, const pack::PosePlayer& player,
+std::vector<TransformedBox> clusterBoxes(const formats::PackView& pack, const PosePlayer& player,
                                          formats::Range instances)
 {
     std::vector<TransformedBox> boxes;
@@ -155,7 +153,7 @@ std::vector<TransformedBox> clusterBoxes(const formats::PackView& pack, const pa
                     boxes.push_back({formats::clusterBox(cluster, mesh.grid_step), place});
         },
         [&](const formats::MeshRecord& mesh, const formats::DeformedMeshRecord& deformed,
-            const pack::PosedInstance& pose)
+            const PosedInstance& pose)
         {
             if (in_pose)
                 return addPosed(pack, pose, boxes);
@@ -171,7 +169,7 @@ std::vector<TransformedBox> clusterBoxes(const formats::PackView& pack, const pa
     return boxes;
 }
 
-Box3 instanceBounds(const formats::PackView& pack, const pack::PosePlayer& player, formats::Range instances)
+Box3 instanceBounds(const formats::PackView& pack, const PosePlayer& player, formats::Range instances)
 {
     Box3 bounds;
     for (const TransformedBox& placed : instanceBoxes(pack, player, instances))
@@ -183,14 +181,14 @@ Box3 instanceBounds(const formats::PackView& pack, const pack::PosePlayer& playe
     return bounds;
 }
 
-Box3 sceneBounds(const formats::PackView& pack, const pack::PosePlayer& player)
+Box3 sceneBounds(const formats::PackView& pack, const PosePlayer& player)
 {
     return instanceBounds(pack, player, allInstances(pack));
 }
 
 Box3 sceneBounds(const formats::PackView& pack)
 {
-    return sceneBounds(pack, pack::PosePlayer(pack));
+    return sceneBounds(pack, PosePlayer(pack));
 }
 
-} // namespace hearth::gpu
+} // namespace hearth::pack

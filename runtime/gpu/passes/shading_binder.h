@@ -1,0 +1,37 @@
+// Binds the descriptor sets of shading: one for the scene, each material and the attachments, or one for all.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "runtime/gpu/passes/frame_targets.h"
+#include "runtime/gpu/scene/scene.h"
+
+namespace hearth::gpu
+{
+
+/// Refers to its arguments.
+class ShadingBinder
+{
+public:
+    ShadingBinder(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                  const Scene& scene, const FrameTargets& targets);
+
+    VkPipelineLayout layout() const { return layouts_.shading.get(); }
+
+    /// Bind what all pipelines of layout() share: scene and attachments.
+    void bindSurfaces() const;
+    /// Bind a material beside them.
+    void bindMaterial(size_t row) const;
+    /// Bind what the debug views of clusters read.
+    void bindClusters() const;
+
+private:
+    void bind(VkPipelineLayout layout, uint32_t number, VkDescriptorSet set) const;
+
+    const Device& device_;
+    VkCommandBuffer commands_;
+    const DrawLayouts& layouts_;
+    const Scene& scene_;
+    const FrameTargets& targets_;
+};
+
+} // namespace hearth::gpu

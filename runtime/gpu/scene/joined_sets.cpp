@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/scene/joined_sets.h"
+
+#include "runtime/gpu/scene/scene.h"
+
+namespace hearth::gpu
+{
+
+namespace
+{
+
+/// Add the descriptors of `sets` sets with these bindings.
+void addSizes(std::span<const SetBinding> bindings, uint32_t sets, DescriptorPoolSizes& sizes)
+{
+    for (const SetBinding& binding : bindings)
+        (binding.type == VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER           ? sizes.uniforms
+         : binding.type == VK_DESCRIPTOR_TYPE_STORAGE_BUFFER         ? sizes.storages
+         : binding.type == VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER ? sizes.textures
+                                                                     : sizes.inputs) += sets;
+}
+
+} // namespace
+
+Result<std::unique_ptr<JoinedSets>> JoinedSets::create(const Device& device, const DrawLayouts& layouts,
+                                                       const Scene& scene)
+{
+    auto joined = std::make_unique<JoinedSets>();
+    // shading reads the visibility buffer as an input attachment wherever its sets are joined
+    joined->bindings_ = shadingBindings(VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT);
+    const ShadingBindings& bindings = joined->bindings_;
+    const auto frames = static_cast<uint32_t>(scene.frames.size());
+    const uint32_t material_sets = frames * static_cast<uint32_t>(scene.materials.size());
+    DescriptorPoolSizes sizes;
+    addSizes(bindings.scene, material_sets, sizes);
+    addSizes(bindings.material, material_sets, sizes);
+    addSizes(bindings.attachments, material_sets, sizes);
+    addSizes(bindings.cluster_views, frames, sizes);
+    addSizes(bindings.visibility, frames, sizes);
+    HEARTH_ASSIGN_OR_RETURN(joined->pool_, createDescriptorPool(device, material_sets + frames, sizes));
+
+    DescriptorCopier copier;
+    for (const SceneFrame& frame : scene.frames)
+    {
+        Frame sets;
+        for (const SceneMaterial& material : scene.materials)
+        {
+            HEARTH_ASSIGN_OR_RETURN(const VkDescriptorSet set,
+                                    allocateSet(device, joined->pool_.get(), layouts.joined_shading.get()));
+            copier.copy(frame.main.draw_set, set, bindings.scene);
+            copier.copy(material.set, set, bindings.material);
+            sets.materials.push_back(set);
+        }
+        HEARTH_ASSIGN_OR_RETURN(sets.clusters,
+                                allocateSet(device, joined->pool_.get(), layouts.joined_clusters.get()));
+        copier.copy(frame.cluster_view_set, sets.clusters, bindings.cluster_views);
+        joined->frames_.push_back(std::move(sets));
+    }
+    copier.write(device);
+    return joined;
+}
+
+void JoinedSets::setAttachments(const Device& device, uint32_t frame, const AttachmentSet& attachments)
+{
+    Frame& sets = frames_[frame];
+    if (sets.targets.lock() == attachments.targets)
+        return;
+    DescriptorCopier copier;
+    for (const VkDescriptorSet set : sets.materials)
+        copier.copy(attachments.set, set, bindings_.attachments);
+    copier.copy(attachments.set, sets.clusters, bindings_.visibility);
+    copier.write(device);
+    sets.targets = attachments.targets;
+}
+
+} // namespace hearth::gpu
