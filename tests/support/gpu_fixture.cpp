@@ -37,7 +37,7 @@ size_t testOption(const char* variable, std::initializer_list<std::string_view> 
     return static_cast<size_t>(found - names.begin());
 }
 
-/// Options by which the tests run, HEARTH_TEST_MATERIALS=depth|id and HEARTH_TEST_FRAME=merged|separate|one-set.
+/// Options by which the tests run: HEARTH_TEST_MATERIALS=depth|id, HEARTH_TEST_FRAME=merged|separate|one-set.
 gpu::RendererOptions rendererOptions()
 {
     return {

@@ -1,7 +1,7 @@
 // Render passes made from the table of a frame. Those of a family have the same attachments and subpasses, so
-// that they share pipelines and framebuffers: all passes of the ways with subpasses, where a pass that only fills
-// the visibility buffer, or only shades, leaves its other subpass empty; with FrameWay::separate those that
-// fill the visibility buffer, and those that shade.
+// that they share pipelines and framebuffers: all passes of the ways with subpasses, where a pass that only
+// fills the visibility buffer, or only shades, leaves its other subpass empty; with FrameWay::separate those
+// that fill the visibility buffer, and those that shade.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

@@ -1,4 +1,5 @@
-// Descriptors and compiled shaders by which shading reads the visibility buffer, for each way through a frame.
+// Descriptors and compiled shaders by which shading reads the visibility buffer, for each way through a
+// frame.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

@@ -1,5 +1,5 @@
-// Descriptor sets of shading where a pipeline has one set (FrameWay::one_set): each joins the set of the scene,
-// a material's, and that of the attachments.
+// Descriptor sets of shading where a pipeline has one set (FrameWay::one_set): each joins the set of the
+// scene, a material's, and that of the attachments.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -32,8 +32,8 @@ public:
     static Result<std::unique_ptr<JoinedSets>> create(const Device& device, const DrawLayouts& layouts,
                                                       const Scene& scene);
 
-    /// Join the attachments, unless the sets of this frame in flight hold them. The frame is not yet recorded,
-    /// and the one before it in its place has completed.
+    /// Join the attachments, unless the sets of this frame in flight hold them. The frame is not yet
+    /// recorded, and the one before it in its place has completed.
     void setAttachments(const Device& device, uint32_t frame, const AttachmentSet& attachments);
 
     VkDescriptorSet material(uint32_t frame, size_t row) const { return frames_[frame].materials[row]; }
