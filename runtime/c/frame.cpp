@@ -318,8 +318,10 @@ hearth_result hearth_describe_passes(const hearth_scene* scene, const hearth_tar
                     HEARTH_TRY(checkFrame(*scene, *targets, frame));
                     if (needed == nullptr || (json == nullptr && size > 0))
                         return usage("needed is NULL, or json is NULL and size is not 0");
+                    HEARTH_ASSIGN_OR_RETURN(const shared::FrameView view,
+                                            makeView(*scene, targets->targets, *frame));
                     const gpu::FrameInput input{
-                        .view = {.flags = frame->cull_flags},
+                        .view = view,
                         .shading = {.debug_view = frame->debug_view,
                                     .area = static_cast<gpu::ShadedArea>(frame->shaded_area),
                                     .gi = frame->constant_sky == 0},

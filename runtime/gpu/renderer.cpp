@@ -60,6 +60,11 @@ FrameConfiguration configure(const Scene& scene, const FrameTargets& targets, co
             .lights_bricks = scene.bricks != nullptr};
 }
 
+shared::FrameView scaledView(const Scene& scene, const shared::FrameView& view)
+{
+    return scene.stream == nullptr ? view : scene.stream->scaled(view);
+}
+
 /// Pass the moves and changes of the frame to the shadow cache, before the frame is recorded.
 void trackShadows(const Scene& scene, std::span<const InstanceMove> moves)
 {
@@ -105,6 +110,12 @@ FrameDescription Renderer::describe(const Scene& scene, const FrameTargets& targ
     FrameConfiguration configuration = configure(scene, targets, input, in_parts);
     configuration.way = passes_.way();
     configuration.materials = passes_.materials();
+    if (scene.shadows != nullptr)
+    {
+        configuration.maps_at_once = static_cast<uint32_t>(scene.frame().casters.size());
+        configuration.maps =
+            scene.shadows->findStale(scaledView(scene, input.view), input.shadow_spheres, input.moves);
+    }
     return describeFrame(configuration);
 }
 
@@ -135,7 +146,7 @@ Result<std::unique_ptr<Scene>> Renderer::upload(const formats::PackView& pack, V
     {
         if (!shadows_)
         {
-            HEARTH_ASSIGN_OR_RETURN(shadows_, ShadowPass::create(device_, layouts_));
+            HEARTH_ASSIGN_OR_RETURN(shadows_, ShadowPass::create(device_, layouts_, passes_.shadowMapPass()));
         }
         if (scene->deformation != nullptr)
             HEARTH_TRY(shadows_->prepareDeformed(device_));
@@ -190,8 +201,8 @@ Status Renderer::prepareOverdraw()
 void Renderer::record(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                       const FrameInput& input) const
 {
-    recordCull(commands, scene, targets, input);
     PassRecorder passes(device_, commands, plan(scene, targets, input, false), targets);
+    recordCulled(commands, scene, targets, input, passes);
     recordVisible(commands, scene, targets, input, passes);
     recordShaded(commands, scene, targets, input, passes);
 }
@@ -199,24 +210,35 @@ void Renderer::record(VkCommandBuffer commands, const Scene& scene, FrameTargets
 void Renderer::recordCull(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                           const FrameInput& input) const
 {
+    PassRecorder passes(device_, commands, plan(scene, targets, input, true), targets);
+    recordCulled(commands, scene, targets, input, passes);
+}
+
+/// Record up to the clusters that are drawn first.
+void Renderer::recordCulled(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
+                            const FrameInput& input, PassRecorder& passes) const
+{
     HEARTH_ASSERT(input.view.instance_count == scene.instance_count);
     if (input.timestamps != VK_NULL_HANDLE)
         device_.vk.vkCmdResetQueryPool(commands, input.timestamps, 0, kTimestampCount);
     writeTimestamp(device_, commands, input.timestamps, kTimestampBegin);
-    const shared::FrameView view = scene.stream == nullptr ? input.view : scene.stream->scaled(input.view);
+    const shared::FrameView view = scaledView(scene, input.view);
     trackShadows(scene, input.moves);
+    passes.begin(FrameStep::update);
     WordCopies copies = recordFrameUpdate(device_, commands, scene, targets, copy_words_, view,
                                           {input.moves, input.poses, input.lights});
     if (scene.bricks != nullptr)
-        recordBrickLight(commands, scene, copies, input);
+        recordBrickLight(commands, scene, copies, input, passes);
     if (scene.shadows != nullptr)
-        recordShadows(commands, scene, targets, view, input.shadow_spheres);
+        recordShadows(commands, scene, targets, view, input.shadow_spheres, passes);
     writeTimestamp(device_, commands, input.timestamps, kTimestampShadows);
     const DebugLabel label(device_, commands, "cull");
+    passes.begin(FrameStep::cull);
     cull_.record(device_, commands, scene, scene.frame().main, targets.occlusionSet(), firstPhase(input));
     recordSkinning(commands, scene, firstPhase(input));
     if (scene.stream != nullptr)
         page_requests_.record(device_, commands, scene);
+    passes.end();
     writeTimestamp(device_, commands, input.timestamps, kTimestampCull);
 }
 
@@ -251,15 +273,19 @@ void Renderer::recordPrefetch(VkCommandBuffer commands, const Scene& scene, Fram
 {
     HEARTH_ASSERT(scene.stream != nullptr && view.instance_count == scene.instance_count);
     trackShadows(scene, moves);
+    PassRecorder passes(device_, commands, passes_.plan({.occlusion = OcclusionCulling::off}), targets);
+    passes.begin(FrameStep::update);
     recordFrameUpdate(device_, commands, scene, targets, copy_words_, scene.stream->scaled(view),
                       {moves, poses});
+    passes.begin(FrameStep::cull);
     cull_.record(device_, commands, scene, scene.frame().main, targets.occlusionSet(), shared::kPhaseWhole);
     page_requests_.record(device_, commands, scene);
 }
 
 /// Draw the shadow maps that are stale: find the casters of as many as there are views, then draw these.
 void Renderer::recordShadows(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
-                             const shared::FrameView& view, std::span<const ShadowSphere> spheres) const
+                             const shared::FrameView& view, std::span<const ShadowSphere> spheres,
+                             PassRecorder& passes) const
 {
     const DebugLabel label(device_, commands, "shadows");
     const std::span<const ShadowCache::LayerUpdate> stale = scene.shadows->planFrame(view, spheres);
@@ -269,6 +295,7 @@ void Renderer::recordShadows(VkCommandBuffer commands, const Scene& scene, const
     for (size_t first = 0; first < stale.size(); first += frame.casters.size())
     {
         const auto maps = stale.subspan(first, std::min(frame.casters.size(), stale.size() - first));
+        passes.begin(FrameStep::shadow_cull);
         for (size_t i = 0; i < maps.size(); ++i)
         {
             if (first == 0)
@@ -278,19 +305,36 @@ void Renderer::recordShadows(VkCommandBuffer commands, const Scene& scene, const
             cull_.record(device_, commands, scene, frame.casters[i], targets.occlusionSet(),
                          shared::kPhaseWhole);
         }
+        shadows_->recordCounters(device_, commands, scene, frame.casters, maps);
         for (size_t i = 0; i < maps.size(); ++i)
-            shadows_->recordMap(device_, commands, layouts_, scene, frame.casters[i], maps[i]);
+            recordShadowMap(commands, scene, frame.casters[i], maps[i], passes);
     }
+    passes.end();
+}
+
+void Renderer::recordShadowMap(VkCommandBuffer commands, const Scene& scene, const SceneView& view,
+                               const ShadowCache::LayerUpdate& map, PassRecorder& passes) const
+{
+    if (map.copy_from)
+    {
+        passes.begin(FrameStep::shadow_copy);
+        shadows_->recordCopy(device_, commands, scene, map);
+    }
+    const auto side = static_cast<uint32_t>(scene.shadows->plan().block.maps[map.map].size);
+    passes.begin(map.copy_from ? FrameStep::moving_shadow_map : FrameStep::shadow_map,
+                 scene.shadows->framebuffer(map.layer), {side, side});
+    shadows_->recordMap(device_, commands, layouts_, scene, view, map);
 }
 
 /// Update a share of the brick faces, if the frame shows their light.
 void Renderer::recordBrickLight(VkCommandBuffer commands, const Scene& scene, WordCopies& copies,
-                                const FrameInput& input) const
+                                const FrameInput& input, PassRecorder& passes) const
 {
     const bool is_shown = shared::viewNeedsBricks(input.shading.debug_view);
     if (input.shading.gi || is_shown)
     {
         const DebugLabel label(device_, commands, "light bricks");
+        passes.begin(FrameStep::brick_light);
         brick_light_->record(device_, commands, scene, copy_words_, copies, !input.lights.empty(),
                              input.emission);
     }

@@ -89,7 +89,8 @@ public:
 
     FrameWay way() const { return passes_.way(); }
 
-    /// Return the passes of a frame as `record` records them, or the parts of it.
+    /// Return the passes of a frame as `record` records them, or the parts of it. Shadow maps are those that
+    /// are stale by the view and its moves: what the frame changes else does not count.
     FrameDescription describe(const Scene& scene, const FrameTargets& targets, const FrameInput& input,
                               bool in_parts = false) const;
 
@@ -137,11 +138,16 @@ private:
     Status prepareDeformed();
     void recordSkinning(VkCommandBuffer commands, const Scene& scene, uint32_t phase) const;
     void recordShadows(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
-                       const shared::FrameView& view, std::span<const ShadowSphere> spheres) const;
+                       const shared::FrameView& view, std::span<const ShadowSphere> spheres,
+                       PassRecorder& passes) const;
+    void recordShadowMap(VkCommandBuffer commands, const Scene& scene, const SceneView& view,
+                         const ShadowCache::LayerUpdate& map, PassRecorder& passes) const;
     void recordBrickLight(VkCommandBuffer commands, const Scene& scene, WordCopies& copies,
-                          const FrameInput& input) const;
+                          const FrameInput& input, PassRecorder& passes) const;
     const FramePlan& plan(const Scene& scene, const FrameTargets& targets, const FrameInput& input,
                           bool in_parts) const;
+    void recordCulled(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
+                      const FrameInput& input, PassRecorder& passes) const;
     void recordEarly(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                      const FrameInput& input, PassRecorder& passes) const;
     void recordVisible(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,

@@ -15,16 +15,20 @@ namespace
 // a pyramid is 1/4 + 1/16 + ... of the pixels; two texels of 16 bytes and 112 bytes of points per 64 pixels,
 // twice; 64 words per 4096 pixels
 constexpr ResourceFacts kResources[] = {
-    {"visibility", ResourceKind::attachment, 4},   {"depth", ResourceKind::attachment, 4},
-    {"color", ResourceKind::attachment, 4},        {"pyramid", ResourceKind::image, 4.0f / 3},
-    {"gathered light", ResourceKind::image, 0.5f}, {"gather points", ResourceKind::buffer, 1.75f},
-    {"tile lists", ResourceKind::buffer, 0.0625f}, {"shadow map", ResourceKind::shadow_map, 4},
+    {"visibility", ResourceKind::attachment, 4},     {"depth", ResourceKind::attachment, 4},
+    {"color", ResourceKind::attachment, 4},          {"pyramid", ResourceKind::image, 4.0f / 3},
+    {"gathered light", ResourceKind::image, 0.5f},   {"gather points", ResourceKind::buffer, 1.75f},
+    {"tile lists", ResourceKind::buffer, 0.0625f},   {"shadow map", ResourceKind::shadow_map, 4},
+    {"scene tables", ResourceKind::buffer, 0},       {"pages", ResourceKind::buffer, 0, true},
+    {"work lists", ResourceKind::buffer, 0},         {"visible list", ResourceKind::buffer, 0, true},
+    {"caster lists", ResourceKind::buffer, 0, true}, {"brick light", ResourceKind::buffer, 0},
 };
 static_assert(std::size(kResources) == static_cast<size_t>(FrameResource::count));
 
 constexpr const char* kSteps[] = {
-    "update",    "light bricks", "shadow maps",    "cull",         "early visibility", "early pyramid",
-    "late cull", "visibility",   "material tiles", "gather light", "shading",          "pyramid",
+    "update",       "light bricks",     "shadow cull",   "shadow map", "shadow copy", "moving shadow map",
+    "cull",         "early visibility", "early pyramid", "late cull",  "visibility",  "material tiles",
+    "gather light", "shading",          "pyramid",
 };
 static_assert(std::size(kSteps) == static_cast<size_t>(FrameStep::count));
 
@@ -71,6 +75,12 @@ constexpr AccessFacts accessFacts(Access access)
     case Access::fragment_read:
         return {VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT,
                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, false};
+    case Access::copy_read:
+        return {VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT,
+                VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, false};
+    case Access::copy_write:
+        return {VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, true};
     }
     return {};
 }
@@ -105,6 +115,15 @@ bool isWrite(Access access)
 VkImageLayout accessLayout(Access access)
 {
     return accessFacts(access).layout;
+}
+
+const char* userName(const Pass& pass, FrameResource resource)
+{
+    for (const Subpass& subpass : pass.subpasses)
+        for (const ResourceUse& use : subpass.attachments)
+            if (!subpass.is_empty && use.resource == resource)
+                return stepName(subpass.step);
+    return stepName(pass.steps.back()); // of a joined pass, shading reads images
 }
 
 std::string passName(const Pass& pass)

@@ -15,7 +15,7 @@
 namespace hearth::gpu
 {
 
-/// Images, and buffers whose size follows the image's, that pass from one step of a frame to another.
+/// Images and buffers that pass from one step of a frame to another.
 enum class FrameResource : uint8_t
 {
     visibility,     ///< visible triangle of each pixel; attachment
@@ -26,6 +26,12 @@ enum class FrameResource : uint8_t
     gather_points,  ///< buffers of the same tiles
     tile_lists,     ///< buffers: tiles of 64 x 64 pixels of each material
     shadow_map,     ///< a layer; its texels are not the frame's pixels
+    scene_tables,   ///< groups of a streamed scene
+    pages,          ///< geometry that is streamed in, to where no frame in flight reads
+    work_lists,     ///< results of culling, of one view after another
+    visible_list,   ///< clusters to draw, their draws, counters and skinned vertices
+    caster_lists,   ///< the same of shadow maps
+    brick_light,    ///< light of the faces of bricks
     count,
 };
 
@@ -42,7 +48,9 @@ struct ResourceFacts
 {
     const char* name;
     ResourceKind kind;
-    float bytes_per_pixel; ///< of the frame; of a shadow map, of its texel
+    float bytes_per_pixel; ///< of the frame; of a shadow map, of its texel; 0: does not follow the image
+    /// Each frame in flight writes a part of its own, and waits for no earlier frame.
+    bool has_parts = false;
 };
 const ResourceFacts& resourceFacts(FrameResource resource);
 
@@ -51,7 +59,10 @@ enum class FrameStep : uint8_t
 {
     update,
     brick_light,
-    shadow_maps,
+    shadow_cull,       ///< find the casters of as many maps as are culled side by side
+    shadow_map,        ///< draw a map
+    shadow_copy,       ///< begin a map as a copy of its casters at rest
+    moving_shadow_map, ///< draw the casters that move on top
     cull,
     early_visibility,
     early_pyramid, ///< of the early phase
@@ -77,6 +88,8 @@ enum class Access : uint8_t
     compute_write, ///< as storage
     vertex_read,   ///< by indirect draws and vertex shaders
     fragment_read, ///< sampled or as storage
+    copy_read,
+    copy_write,
 };
 VkPipelineStageFlags accessStages(Access access);
 VkAccessFlags accessFlags(Access access);
@@ -149,6 +162,7 @@ enum class PassKind : uint8_t
 {
     compute,
     render,
+    transfer,
 };
 
 /// Way in which the CPU hands over what a pass uploads.
@@ -185,13 +199,33 @@ struct Pass
     std::vector<ResourceUse> uses{};          ///< all but attachments
     HostWrite host_write = HostWrite::none;
     bool by_region = true; ///< dependencies between subpasses are between pixels
-    PassBarrier barrier{}; ///< before the pass
+    PassBarrier barrier{}; ///< before compute shaders, copies and vertices of the pass
+    /// Before the fragments and attachments of a render pass, whose vertices need not wait for as much.
+    PassBarrier fragment_barrier{};
+    /// Number of the shadow map that the pass draws, or begins, in a layer of its own.
+    std::optional<uint32_t> map{};
     /// Images that the pass reads and the caller gets after it, visible to transfers.
     std::vector<LayoutChange> handed_out{};
 };
 
 /// Return the name of a pass: its steps, joined by " + ".
 std::string passName(const Pass& pass);
+
+/// Return the name of the step of a pass that uses an image.
+const char* userName(const Pass& pass, FrameResource resource);
+
+/// True if the pass has a size of its own: the frame's sum of bytes leaves it out.
+inline bool hasOwnSize(const Pass& pass)
+{
+    return pass.map.has_value();
+}
+
+/// Shadow map that a frame draws.
+enum class MapContent : uint8_t
+{
+    fresh,
+    moving, ///< begins as a copy of a map without the casters that move
+};
 
 /// Occlusion culling of a frame.
 enum class OcclusionCulling : uint8_t
@@ -240,9 +274,10 @@ struct FrameConfiguration
     bool in_parts = false;         ///< the caller may put work between visibility and shading
     bool keeps_visibility = false; ///< the caller reads the visibility buffer after the frame
     bool shows_overdraw = false;
-    // no influence on the passes from the early visibility on
     bool has_shadows = false;
     bool lights_bricks = false;
+    std::vector<MapContent> maps{}; ///< shadow maps that the frame draws, in order; the others are cached
+    uint32_t maps_at_once = 8;      ///< maps whose casters are found before any of them is drawn
 };
 
 struct FrameDescription

@@ -121,6 +121,9 @@ private:
                 if (resourceFacts(use.resource).kind == ResourceKind::attachment)
                     warn(LintRule::spill, std::string("samples the ") + resourceFacts(use.resource).name +
                                               ", which left the tile");
+        for (const ResourceUse& use : pass_->uses)
+            if (use.access == Access::copy_write)
+                stored_.insert(use.resource);
         // content that a later pass reads is lost if this pass neither keeps nor stores it again
         for (const AttachmentUse& use : pass_->attachments)
         {
@@ -148,8 +151,12 @@ private:
     {
         for (size_t i = number + 1; i < frame_.passes.size(); ++i)
         {
+            // shadow maps lie in layers of their own
+            if (resource == Resource::shadow_map && frame_.passes[i].map &&
+                frame_.passes[i].map != pass_->map)
+                continue;
             if (needs(frame_.passes[i], resource))
-                return stepName(frame_.passes[i].steps.front());
+                return userName(frame_.passes[i], resource);
             if (findAttachment(frame_.passes[i], resource) != nullptr)
                 return "";
         }
@@ -313,11 +320,6 @@ Traffic measureTraffic(const Pass& pass)
     }
     traffic.high = traffic.low + subpassTraffic(pass);
     return traffic;
-}
-
-bool hasOwnSize(const Pass& pass)
-{
-    return findAttachment(pass, Resource::shadow_map) != nullptr;
 }
 
 Traffic measureTraffic(const FrameDescription& frame)

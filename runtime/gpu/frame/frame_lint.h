@@ -27,9 +27,6 @@ struct Traffic
 /// Return the traffic of a pass, of a shadow map in bytes a texel.
 Traffic measureTraffic(const Pass& pass);
 
-/// True if the pass draws a picture of another size, once for each of them: the frame's sum leaves it out.
-bool hasOwnSize(const Pass& pass);
-
 /// Return the sum over all passes of the frame's size.
 Traffic measureTraffic(const FrameDescription& frame);
 

@@ -3,6 +3,7 @@
 
 #include "formats/gpu_shared/bindings.h"
 #include "runtime/gpu/frame/frame_plan.h"
+#include "runtime/gpu/scene/scene_shadows.h"
 
 #include <algorithm>
 
@@ -20,6 +21,8 @@ VkFormat attachmentFormat(FrameResource resource, MaterialTest materials)
         return kVisibilityFormat;
     case FrameResource::depth:
         return depthFormat(materials);
+    case FrameResource::shadow_map:
+        return kShadowFormat;
     default:
         HEARTH_ASSERT(resource == FrameResource::color);
         return kColorFormat;
@@ -190,6 +193,11 @@ Result<PlannedPass> FramePasses::findOrCreate(const Device& device, const Pass& 
     CreatedPass created;
     HEARTH_ASSIGN_OR_RETURN(created.handle, createRenderPass(device, pass, materials_));
     const VkRenderPass handle = created.handle.get();
+    if (hasOwnSize(pass))
+    {
+        passes_.emplace(std::move(key), std::move(created));
+        return PlannedPass{handle, 0};
+    }
     const auto family = std::find_if(families_.begin(), families_.end(),
                                      [&](const PassFamily& f) { return f.attachments == attachments; });
     created.family = static_cast<uint32_t>(family - families_.begin());
@@ -205,9 +213,17 @@ Result<FramePasses> FramePasses::create(const Device& device, FrameWay way, Mate
     FramePasses passes;
     passes.way_ = way;
     passes.materials_ = materials;
-    for (const FrameConfiguration& configuration : allConfigurations(way, materials))
+    std::vector<FrameConfiguration> configurations = allConfigurations(way, materials);
+    for (FrameConfiguration configuration : allConfigurations(way, materials))
     {
-        FramePlan plan{describeFrame(configuration), {}};
+        addMapsOfAllKinds(configuration);
+        configurations.push_back(configuration);
+    }
+    for (FrameConfiguration& configuration : configurations)
+        configuration.lights_bricks = true;
+    for (FrameDescription& description : describeFrames(configurations))
+    {
+        FramePlan plan{std::move(description), {}};
         for (const Pass& pass : plan.description.passes)
         {
             PlannedPass planned;
@@ -217,7 +233,8 @@ Result<FramePasses> FramePasses::create(const Device& device, FrameWay way, Mate
             }
             plan.render_passes.push_back(planned);
         }
-        HEARTH_ASSERT(configurationIndex(configuration) == passes.plans_.size());
+        HEARTH_ASSERT(configurationIndex(plan.description.configuration) ==
+                      passes.plans_.size() % (configurations.size() / 2));
         passes.plans_.push_back(std::move(plan));
     }
     return passes;
@@ -225,13 +242,14 @@ Result<FramePasses> FramePasses::create(const Device& device, FrameWay way, Mate
 
 const FramePlan& FramePasses::plan(const FrameConfiguration& configuration) const
 {
-    return plans_[configurationIndex(configuration)];
+    const size_t without_shadows = plans_.size() / 2;
+    return plans_[(configuration.has_shadows ? without_shadows : 0) + configurationIndex(configuration)];
 }
 
 /// Any plan will do: passes of a family have the same subpasses.
 DrawPlace FramePasses::findPlace(FrameStep step) const
 {
-    const FramePlan& plan = plans_.front();
+    const FramePlan& plan = plans_.back();
     for (size_t number = 0; number < plan.render_passes.size(); ++number)
     {
         const std::vector<Subpass>& subpasses = plan.description.passes[number].subpasses;

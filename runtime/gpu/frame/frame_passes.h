@@ -24,8 +24,8 @@ constexpr VkFormat depthFormat(MaterialTest materials)
 /// A render pass of a plan.
 struct PlannedPass
 {
-    VkRenderPass render_pass = VK_NULL_HANDLE; ///< null: another pass, or of a shadow map
-    uint32_t family = 0;
+    VkRenderPass render_pass = VK_NULL_HANDLE; ///< null: another pass
+    uint32_t family = 0;                       ///< of a pass of the frame's size
 };
 
 /// A frame, and its render passes.
@@ -49,7 +49,8 @@ struct DrawPlace
     uint32_t subpass;
 };
 
-/// Plans of all configurations, made before any frame is recorded.
+/// Plans of all configurations, made before any frame is recorded. They have the light of bricks, and of scenes
+/// with shadows maps of all kinds: frames record those that they need.
 class FramePasses
 {
 public:
@@ -58,13 +59,16 @@ public:
 
     FrameWay way() const { return way_; }
     MaterialTest materials() const { return materials_; }
-    /// Plan of a configuration; its way, its test of materials and the scene's features do not matter.
+    /// Plan of a configuration; its way, its test of materials, its bricks and its maps do not matter.
     const FramePlan& plan(const FrameConfiguration& configuration) const;
+    /// Families of the passes of the frame's size.
     std::span<const PassFamily> families() const { return families_; }
     /// Return the place of pipelines that draw into the visibility buffer.
     DrawPlace visibilityPlace() const { return findPlace(FrameStep::visibility); }
     /// Return the place of pipelines that draw into the shaded frame.
     DrawPlace shadingPlace() const { return findPlace(FrameStep::shading); }
+    /// Return a render pass that draws a shadow map; all are compatible.
+    VkRenderPass shadowMapPass() const { return findPlace(FrameStep::shadow_map).render_pass; }
 
 private:
     /// Load and store operations and layouts of the attachments.
@@ -74,7 +78,7 @@ private:
 
     FrameWay way_ = FrameWay::merged;
     MaterialTest materials_ = MaterialTest::depth;
-    std::vector<FramePlan> plans_; ///< configurationIndex
+    std::vector<FramePlan> plans_; ///< configurationIndex, of scenes without shadows, then of others
     std::vector<PassFamily> families_;
     struct CreatedPass
     {

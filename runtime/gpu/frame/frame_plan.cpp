@@ -28,15 +28,61 @@ struct Step
     std::vector<ResourceUse> uses{};
     DrawFacts draws{};
     HostWrite host_write = HostWrite::none;
+    std::optional<uint32_t> map{};
 };
+
+/// Reads of clusters and their vertices by draws.
+void addDrawnLists(Step& step, Resource lists)
+{
+    step.uses.push_back({lists, Access::vertex_read});
+    step.uses.push_back({Resource::pages, Access::vertex_read});
+}
 
 /// Draw clusters into the visibility buffer; `content` of what is there before.
 Step visibilityStep(FrameStep step, Content content)
 {
+    Step draws{.step = step,
+               .kind = PassKind::render,
+               .attachments = {{Resource::visibility, Access::color_write, content},
+                               {Resource::depth, Access::depth_write, content}}};
+    addDrawnLists(draws, Resource::visible_list);
+    return draws;
+}
+
+/// Find clusters, of the frame or of shadow maps.
+Step cullStep(FrameStep step, Resource lists)
+{
     return {.step = step,
-            .kind = PassKind::render,
-            .attachments = {{Resource::visibility, Access::color_write, content},
-                            {Resource::depth, Access::depth_write, content}}};
+            .kind = PassKind::compute,
+            .uses = {{Resource::scene_tables, Access::compute_read},
+                     {Resource::pages, Access::compute_read},
+                     {Resource::work_lists, Access::compute_write, Content::overwrite},
+                     {lists, Access::compute_write,
+                      step == FrameStep::late_cull ? Content::keep : Content::overwrite}}};
+}
+
+/// Draw shadow maps, in rounds: find the casters of some, then draw these.
+void addShadowSteps(const FrameConfiguration& c, std::vector<Step>& steps)
+{
+    for (uint32_t map = 0; map < c.maps.size(); ++map)
+    {
+        if (map % c.maps_at_once == 0)
+            steps.push_back(cullStep(FrameStep::shadow_cull, Resource::caster_lists));
+        const bool is_fresh = c.maps[map] == MapContent::fresh;
+        if (!is_fresh)
+            steps.push_back({.step = FrameStep::shadow_copy,
+                             .kind = PassKind::transfer,
+                             .uses = {{Resource::shadow_map, Access::copy_read},
+                                      {Resource::shadow_map, Access::copy_write, Content::overwrite}},
+                             .map = map});
+        Step draws{.step = is_fresh ? FrameStep::shadow_map : FrameStep::moving_shadow_map,
+                   .kind = PassKind::render,
+                   .attachments = {{Resource::shadow_map, Access::depth_write,
+                                    is_fresh ? Content::begin : Content::keep}},
+                   .map = map};
+        addDrawnLists(draws, Resource::caster_lists);
+        steps.push_back(std::move(draws));
+    }
 }
 
 Step pyramidStep(FrameStep step)
@@ -59,6 +105,9 @@ Step shadingStep(const FrameConfiguration& c)
               .draws = {.cover = c.material_tiles ? Cover::tiles : Cover::triangle,
                         .discards = !by_depth,
                         .writes_fragment_depth = by_depth}};
+    addDrawnLists(step, Resource::visible_list);
+    for (const Resource lists : {Resource::visible_list, Resource::pages})
+        step.uses.push_back({lists, Access::fragment_read});
     if (hasSubpasses(c.way))
         step.attachments.push_back({Resource::visibility, Access::input});
     else
@@ -85,24 +134,28 @@ std::vector<Step> listSteps(const FrameConfiguration& c)
 {
     const bool two_phases = c.occlusion == OcclusionCulling::two_phase;
     std::vector<Step> steps;
-    steps.push_back({.step = FrameStep::update, .kind = PassKind::compute, .host_write = HostWrite::ring});
+    steps.push_back(
+        {.step = FrameStep::update,
+         .kind = PassKind::compute,
+         .uses = {{Resource::scene_tables, Access::compute_write}, {Resource::pages, Access::compute_write}},
+         .host_write = HostWrite::ring});
     if (c.lights_bricks)
-        steps.push_back({.step = FrameStep::brick_light, .kind = PassKind::compute});
-    if (c.has_shadows)
-        steps.push_back({.step = FrameStep::shadow_maps,
-                         .kind = PassKind::render,
-                         .attachments = {{Resource::shadow_map, Access::depth_write, Content::begin}}});
+        steps.push_back({.step = FrameStep::brick_light,
+                         .kind = PassKind::compute,
+                         .uses = {{Resource::brick_light, Access::compute_write}}});
+    addShadowSteps(c, steps);
 
     // culling reads texels of the pyramid by cluster, not by pixel
-    Step cull{.step = FrameStep::cull, .kind = PassKind::compute};
+    constexpr ResourceUse kPyramidTexels{Resource::pyramid, Access::compute_read, Content::keep, 0};
+    steps.push_back(cullStep(FrameStep::cull, Resource::visible_list));
     if (c.occlusion != OcclusionCulling::off)
-        cull.uses.push_back({Resource::pyramid, Access::compute_read, Content::keep, 0});
-    steps.push_back(cull);
+        steps.back().uses.push_back(kPyramidTexels);
     if (two_phases)
     {
         steps.push_back(visibilityStep(FrameStep::early_visibility, Content::begin));
         steps.push_back(pyramidStep(FrameStep::early_pyramid));
-        steps.push_back({.step = FrameStep::late_cull, .kind = PassKind::compute, .uses = cull.uses});
+        steps.push_back(cullStep(FrameStep::late_cull, Resource::visible_list));
+        steps.back().uses.push_back(kPyramidTexels);
     }
     steps.push_back(visibilityStep(FrameStep::visibility, two_phases ? Content::keep : Content::begin));
     const bool split = splitsAtVisibility(c);
@@ -111,12 +164,16 @@ std::vector<Step> listSteps(const FrameConfiguration& c)
     if (c.material_tiles)
         steps.push_back({.step = FrameStep::material_tiles,
                          .kind = PassKind::compute,
-                         .uses = {{Resource::visibility, Access::sampled},
+                         .uses = {{Resource::visible_list, Access::compute_read},
+                                  {Resource::visibility, Access::sampled},
                                   {Resource::tile_lists, Access::compute_write, Content::overwrite}}});
     if (c.gathers_light)
         steps.push_back({.step = FrameStep::gather,
                          .kind = PassKind::compute,
-                         .uses = {{Resource::visibility, Access::sampled, Content::keep, kGatheredShare},
+                         .uses = {{Resource::visible_list, Access::compute_read},
+                                  {Resource::pages, Access::compute_read},
+                                  {Resource::brick_light, Access::compute_read},
+                                  {Resource::visibility, Access::sampled, Content::keep, kGatheredShare},
                                   {Resource::gather_points, Access::compute_write, Content::keep},
                                   {Resource::gathered_light, Access::compute_write, Content::overwrite}}});
     steps.push_back(shadingStep(c));
@@ -157,7 +214,11 @@ std::vector<Pass> joinSteps(const FrameConfiguration& c, const std::vector<Step>
             pass.uses.insert(pass.uses.end(), step.uses.begin(), step.uses.end());
             continue;
         }
-        Pass pass{.kind = step.kind, .steps = {step.step}, .uses = step.uses, .host_write = step.host_write};
+        Pass pass{.kind = step.kind,
+                  .steps = {step.step},
+                  .uses = step.uses,
+                  .host_write = step.host_write,
+                  .map = step.map};
         const bool has_subpasses = hasSubpasses(c.way);
         if (has_subpasses && drawsVisibility(step.step))
             pass.subpasses = {makeSubpass(step), makeEmptySubpass(shadingStep(c))};
@@ -193,11 +254,18 @@ bool needsContent(const ResourceUse& use)
     return use.content == Content::keep && use.access != Access::depth_keep;
 }
 
+/// True if two passes do not use the same image: shadow maps lie in layers of their own.
+bool areApart(const Pass& pass, const Pass& other, Resource resource)
+{
+    return resource == Resource::shadow_map && pass.map && other.map && *pass.map != *other.map;
+}
+
 /// Pass after `from` that needs the content of a resource before another pass replaces it.
 const Pass* findReader(std::span<const Pass> passes, size_t from, Resource resource)
 {
     for (size_t i = from + 1; i < passes.size(); ++i)
-        if (const ResourceUse* use = firstUse(passes[i], resource))
+        if (const ResourceUse* use =
+                areApart(passes[from], passes[i], resource) ? nullptr : firstUse(passes[i], resource))
         {
             if (needsContent(*use))
                 return &passes[i];
@@ -255,7 +323,7 @@ void setAttachments(const FrameConfiguration& c, std::span<Pass> passes, size_t 
         if (has_content && reader != nullptr)
         {
             attachment.store = true;
-            attachment.reader = stepName(reader->steps.front());
+            attachment.reader = userName(*reader, resource);
             const Access access = firstUse(*reader, resource)->access;
             attachment.final_layout = accessLayout(access);
         }
@@ -265,15 +333,12 @@ void setAttachments(const FrameConfiguration& c, std::span<Pass> passes, size_t 
             attachment.reader = kCaller;
             attachment.final_layout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
         }
-        else if (resource == Resource::shadow_map)
-        {
-            attachment.store = true;
-            attachment.reader = stepName(FrameStep::shading);
-            attachment.final_layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
-        }
         before = attachment.store ? attachment.final_layout : VK_IMAGE_LAYOUT_UNDEFINED;
         pass.attachments.push_back(attachment);
     }
+    for (const ResourceUse& use : pass.uses)
+        if (use.access == Access::copy_write)
+            stored[static_cast<size_t>(use.resource)] = accessLayout(use.access);
 }
 
 /// Hand out what the caller needs and no render pass can: an image that the frame reads last.
@@ -294,32 +359,40 @@ void setHandedOut(const FrameConfiguration& c, std::span<Pass> passes,
 struct Touch
 {
     VkPipelineStageFlags stages = 0;
-    VkAccessFlags written = 0; ///< 0: read only
+    VkPipelineStageFlags writers = 0; ///< of these, those that write
+    VkAccessFlags written = 0;
 
     void add(Access access)
     {
         stages |= accessStages(access);
-        if (isWrite(access))
-            written |= accessFlags(access);
+        if (!isWrite(access))
+            return;
+        writers |= accessStages(access);
+        written |= accessFlags(access);
     }
 };
 
-/// Everything that any frame may do with a resource: frames before may have had other configurations.
-Touch touchByEarlierFrames(FrameWay way, MaterialTest materials, Resource resource)
+using Touches = std::array<Touch, kResourceCount>;
+
+/// Return what any frame may do with each resource: frames before may have had other configurations.
+Touches touchesOfEarlierFrames(FrameWay way, MaterialTest materials)
 {
-    Touch touch;
+    Touches touches;
     for (FrameConfiguration c : allConfigurations(way, materials))
     {
-        c.has_shadows = true;
+        c.lights_bricks = true;
+        addMapsOfAllKinds(c);
         for (const Step& step : listSteps(c))
             for (const auto* uses : {&step.attachments, &step.uses})
                 for (const ResourceUse& use : *uses)
-                    if (use.resource == resource)
-                        touch.add(use.access);
+                    if (!resourceFacts(use.resource).has_parts)
+                        touches[static_cast<size_t>(use.resource)].add(use.access);
     }
-    if (resource == Resource::color || resource == Resource::visibility)
-        touch.stages |= kCallerStages;
-    return touch;
+    for (const Resource resource : {Resource::color, Resource::visibility})
+        touches[static_cast<size_t>(resource)].stages |= kCallerStages;
+    // tools copy maps
+    touches[static_cast<size_t>(Resource::shadow_map)].add(Access::copy_read);
+    return touches;
 }
 
 /// Uses of a resource by a pass, of empty subpasses too: their attachments change their layout.
@@ -339,7 +412,8 @@ std::vector<Access> listAccesses(const Pass& pass, Resource resource)
 }
 
 /// Return what the passes before did with a resource since it was last written, and that write.
-Touch touchBefore(const FrameConfiguration& c, std::span<const Pass> passes, size_t number, Resource resource)
+Touch touchBefore(const FrameConfiguration& c, std::span<const Pass> passes, size_t number, Resource resource,
+                  const Touches& earlier_frames)
 {
     Touch touch;
     if (c.in_parts && resource == Resource::visibility) // the caller may have read it between two parts
@@ -348,36 +422,51 @@ Touch touchBefore(const FrameConfiguration& c, std::span<const Pass> passes, siz
     {
         for (const Access access : listAccesses(passes[i], resource))
             touch.add(access);
-        if (touch.written != 0)
+        // what wrote a shadow map may have written another layer
+        if (touch.written != 0 && resource != Resource::shadow_map)
             return touch;
     }
-    const Touch earlier = touchByEarlierFrames(c.way, c.materials, resource);
+    const Touch& earlier = earlier_frames[static_cast<size_t>(resource)];
     touch.stages |= earlier.stages;
+    touch.writers |= earlier.writers;
     touch.written |= earlier.written;
     return touch;
 }
 
-/// Derive the barrier before a pass: writes wait for all uses since the last write, reads for that write.
-void setBarrier(const FrameConfiguration& c, std::span<Pass> passes, size_t number)
+/// True if an access is by fragments or their attachments.
+bool isByFragments(Access access)
+{
+    constexpr VkPipelineStageFlags kFragments =
+        VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT |
+        VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
+    return (accessStages(access) & ~kFragments) == 0;
+}
+
+/// Derive the barriers before a pass: writes wait for all uses since the last write, reads for that write.
+void setBarriers(const FrameConfiguration& c, std::span<Pass> passes, size_t number,
+                 const Touches& earlier_frames)
 {
     Pass& pass = passes[number];
     for (size_t i = 0; i < kResourceCount; ++i)
     {
         const auto resource = static_cast<Resource>(i);
-        Touch own;
-        VkAccessFlags accessed = 0;
-        for (const Access access : listAccesses(pass, resource))
-        {
-            own.add(access);
-            accessed |= accessFlags(access);
-        }
-        if (own.stages == 0)
+        const std::vector<Access> accesses = listAccesses(pass, resource);
+        if (accesses.empty())
             continue;
-        const Touch before = touchBefore(c, passes, number, resource);
-        pass.barrier.from |= before.stages;
-        pass.barrier.written |= before.written;
-        pass.barrier.to |= own.stages;
-        pass.barrier.accessed |= accessed;
+        const Touch before = touchBefore(c, passes, number, resource, earlier_frames);
+        for (const Access access : accesses)
+        {
+            // layouts of inputs change with the pass
+            const bool changes = isWrite(access) || access == Access::input;
+            const VkPipelineStageFlags from = changes ? before.stages : before.writers;
+            if (from == 0)
+                continue;
+            PassBarrier& barrier = isByFragments(access) ? pass.fragment_barrier : pass.barrier;
+            barrier.from |= from;
+            barrier.written |= before.written;
+            barrier.to |= accessStages(access);
+            barrier.accessed |= accessFlags(access);
+        }
     }
 }
 
@@ -402,18 +491,37 @@ std::vector<Resource> findTransient(std::span<const Pass> passes)
 
 FrameDescription describeFrame(const FrameConfiguration& configuration)
 {
-    FrameDescription frame;
-    frame.configuration = configuration;
-    frame.passes = joinSteps(configuration, listSteps(configuration));
-    std::array<VkImageLayout, kResourceCount> stored{};
-    for (size_t i = 0; i < frame.passes.size(); ++i)
+    return describeFrames({&configuration, 1}).front();
+}
+
+std::vector<FrameDescription> describeFrames(std::span<const FrameConfiguration> configurations)
+{
+    const FrameConfiguration& first = configurations.front();
+    const Touches earlier_frames = touchesOfEarlierFrames(first.way, first.materials);
+    std::vector<FrameDescription> frames;
+    for (const FrameConfiguration& configuration : configurations)
     {
-        setAttachments(configuration, frame.passes, i, stored);
-        setBarrier(configuration, frame.passes, i);
+        HEARTH_ASSERT(configuration.way == first.way && configuration.materials == first.materials);
+        FrameDescription& frame = frames.emplace_back();
+        frame.configuration = configuration;
+        frame.passes = joinSteps(configuration, listSteps(configuration));
+        std::array<VkImageLayout, kResourceCount> stored{};
+        for (size_t i = 0; i < frame.passes.size(); ++i)
+        {
+            setAttachments(configuration, frame.passes, i, stored);
+            setBarriers(configuration, frame.passes, i, earlier_frames);
+        }
+        setHandedOut(configuration, frame.passes, stored);
+        frame.transient = findTransient(frame.passes);
     }
-    setHandedOut(configuration, frame.passes, stored);
-    frame.transient = findTransient(frame.passes);
-    return frame;
+    return frames;
+}
+
+void addMapsOfAllKinds(FrameConfiguration& configuration)
+{
+    configuration.has_shadows = true;
+    configuration.maps = {MapContent::fresh, MapContent::moving, MapContent::fresh};
+    configuration.maps_at_once = 2;
 }
 
 std::vector<FrameConfiguration> allConfigurations(FrameWay way, MaterialTest materials)

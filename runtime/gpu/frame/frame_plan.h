@@ -11,6 +11,8 @@ namespace hearth::gpu
 /// Describe a frame. An attachment is stored only if a later pass or the caller needs it, and loaded only if
 /// an earlier pass of the frame has stored it.
 FrameDescription describeFrame(const FrameConfiguration& configuration);
+/// Describe frames that have the way and the material test of the first.
+std::vector<FrameDescription> describeFrames(std::span<const FrameConfiguration> configurations);
 
 /// Return all configurations of a way with a material test; scenes have neither shadows nor bricks.
 std::vector<FrameConfiguration> allConfigurations(FrameWay way, MaterialTest materials);
@@ -22,7 +24,10 @@ inline constexpr VkPipelineStageFlags kCallerStages =
     VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
 inline constexpr VkAccessFlags kCallerReads = VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_SHADER_READ_BIT;
 
-/// Return the pass that has a step, or null.
+/// Return the first pass that has a step, or null.
 const Pass* findPass(const FrameDescription& frame, FrameStep step);
+
+/// Add shadow maps of all kinds, in more than one round of culling: passes of further ones are the same.
+void addMapsOfAllKinds(FrameConfiguration& configuration);
 
 } // namespace hearth::gpu

@@ -16,7 +16,7 @@ constexpr const char* kWayNames[] = {"merged", "separate", "one-set"};
 constexpr const char* kOcclusionNames[] = {"off", "last-frame", "two-phase"};
 constexpr const char* kMaterialTestNames[] = {"depth", "id"};
 constexpr const char* kLoadNames[] = {"none", "clear", "load"};
-constexpr const char* kKindNames[] = {"compute", "render"};
+constexpr const char* kKindNames[] = {"compute", "render", "transfer"};
 
 template <typename Enum, size_t kCount>
 const char* enumName(const char* const (&names)[kCount], Enum value)

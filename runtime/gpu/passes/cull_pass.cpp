@@ -135,10 +135,6 @@ void CullPass::record(const Device& device, VkCommandBuffer commands, const Scen
     const uint32_t blocks = blockCount(scene);
     const auto bins = static_cast<uint32_t>(scene.bins.size());
 
-    // the draws of the early phase have read the counters that the late phase adds to
-    if (phase == shared::kPhaseLate)
-        barrier(device, commands, VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT,
-                0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0);
     dispatch(device, commands, instances_, {sets.instances, occlusion},
              divideRoundUp(scene.instance_count, shared::kGroupInstances), shared::PhasePush{phase});
     computeBarrier(device, commands);
@@ -158,13 +154,10 @@ void CullPass::record(const Device& device, VkCommandBuffer commands, const Scen
              shared::EmitVisiblePush{items, scene.slot_capacity});
     dispatch(device, commands, emit_draws_, {sets.emit_draws}, divideRoundUp(bins, shared::kGroupBins),
              shared::EmitDrawsPush{bins, items, blocks, scene.slot_capacity, phase});
-    // the next view is culled in the same work buffers
+    // the next view is culled in the same work buffers; the caller copies counters and lists
     barrier(device, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-            VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT |
-                VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
-                VK_PIPELINE_STAGE_TRANSFER_BIT,
-            VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT |
-                VK_ACCESS_TRANSFER_READ_BIT);
+            VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+            VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT);
 }
 
 } // namespace hearth::gpu

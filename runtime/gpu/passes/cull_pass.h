@@ -25,7 +25,7 @@ public:
 
     /// Record one culling phase: kPhaseWhole; or kPhaseEarly, then, after its clusters are drawn and the
     /// pyramid is built, kPhaseLate, which appends to the visible list and adds draws. Outside a render pass.
-    /// Results are visible to later indirect draws, all shaders, and transfers. Clobbers the compute state.
+    /// Results are visible to later compute shaders and transfers. Clobbers the compute state.
     ///
     /// view  of the scene's frame; its constants are written, and its draws of materials are zero
     void record(const Device& device, VkCommandBuffer commands, const Scene& scene, const SceneView& view,

@@ -28,30 +28,14 @@ const SceneFrame& beginSceneFrame(const Scene& scene)
     return frame;
 }
 
-/// Wait for the compute shaders of earlier frames, which share the work buffers, the groups and the pyramid.
-void recordWait(const Device& device, VkCommandBuffer commands)
-{
-    barrier(device, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-            VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
-}
-
 /// Record the copies of streamed pages and of the flags of their groups.
 void recordStream(const Device& device, VkCommandBuffer commands, const Scene& scene,
                   const WordCopyPass& copy_words, WordCopies& copies)
 {
     const SceneFrame& frame = scene.frame();
     const SceneStream::Copies ranges = scene.stream->takeChanges(scene.buffers, scene.tables->frame, copies);
-    bool changes = false;
     for (size_t i = 0; i < ranges.size(); ++i)
-    {
         copy_words.record(device, commands, frame.stream_copy_sets[i], ranges[i]);
-        changes = changes || ranges[i].count > 0;
-    }
-    if (changes)
-        barrier(device, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
-                VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
-                    VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
-                VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
 }
 
 } // namespace
@@ -66,7 +50,6 @@ WordCopies recordFrameUpdate(const Device& device, VkCommandBuffer commands, con
     const SceneFrame& frame = beginSceneFrame(scene);
     writeView(frame.main, view);
     targets.beginFrame(view);
-    recordWait(device, commands);
     WordCopies copies(frame.copy_regions);
     if (scene.stream != nullptr)
         recordStream(device, commands, scene, copy_words, copies);

@@ -23,9 +23,8 @@ struct FrameChanges
 };
 
 /// Begin a frame of a scene with targets: takes the oldest of the scene's frames in flight, which has
-/// completed, and writes what the frame changes. Records copies of streamed pages, outside a render pass,
-/// and a barrier: compute shaders wait for those of earlier frames, and for nothing else of them. Returns
-/// the frame's copies, for more of them.
+/// completed, and writes what the frame changes. Records copies of streamed pages, in FrameStep::update.
+/// Returns the frame's copies, for more of them.
 WordCopies recordFrameUpdate(const Device& device, VkCommandBuffer commands, const Scene& scene,
                              FrameTargets& targets, const WordCopyPass& copy_words,
                              const shared::FrameView& view, const FrameChanges& changes);

@@ -19,6 +19,13 @@ bool hasStep(const Pass& pass, FrameStep step)
     return std::find(pass.steps.begin(), pass.steps.end(), step) != pass.steps.end();
 }
 
+/// True if a frame has the step as often as it draws shadow maps, or rounds of them.
+bool isRepeated(FrameStep step)
+{
+    return step == FrameStep::shadow_cull || step == FrameStep::shadow_map ||
+           step == FrameStep::shadow_copy || step == FrameStep::moving_shadow_map;
+}
+
 constexpr size_t kMaxAttachments = 3;
 
 VkClearValue clearValue(FrameResource resource)
@@ -26,7 +33,7 @@ VkClearValue clearValue(FrameResource resource)
     VkClearValue value{};
     if (resource == FrameResource::visibility)
         value.color.uint32[0] = shared::kVisibilitySky;
-    else if (resource == FrameResource::depth)
+    else if (resource == FrameResource::depth || resource == FrameResource::shadow_map)
         value.depthStencil = {0, 0}; // at infinity
     else
         value.color = {.float32 = {0, 0, 0, 1}};
@@ -37,19 +44,27 @@ VkClearValue clearValue(FrameResource resource)
 
 void PassRecorder::begin(FrameStep step)
 {
-    if (open_ == nullptr || !hasStep(*open_, step))
+    if (open_ == nullptr || !hasStep(*open_, step) || isRepeated(step))
     {
         end();
-        const auto& passes = plan_.description.passes;
-        size_t number = passes_begun_;
-        while (number < passes.size() && !hasStep(passes[number], step))
-            ++number;
-        HEARTH_ASSERT(number < passes.size()); // the step is described, after those that were recorded
+        const size_t number = findNext(step);
         beginPass(number);
+        const PlannedPass& planned = plan_.render_passes[number];
+        if (open_->kind == PassKind::render)
+            beginRenderPass(planned.render_pass, targets_.framebuffer(planned.family), targets_.extent());
     }
     while (open_->kind == PassKind::render &&
            (open_->subpasses[subpass_].step != step || open_->subpasses[subpass_].is_empty))
         nextSubpass();
+}
+
+void PassRecorder::begin(FrameStep step, VkFramebuffer framebuffer, VkExtent2D extent)
+{
+    end();
+    const size_t number = findNext(step);
+    beginPass(number);
+    HEARTH_ASSERT(hasOwnSize(*open_));
+    beginRenderPass(plan_.render_passes[number].render_pass, framebuffer, extent);
 }
 
 void PassRecorder::end()
@@ -80,18 +95,33 @@ bool PassRecorder::sharesPass(FrameStep first, FrameStep second) const
     return pass != nullptr && pass == findPass(plan_.description, second);
 }
 
+/// Return the number of the next pass that has a step. After the last shadow map of the plan come more like it.
+size_t PassRecorder::findNext(FrameStep step) const
+{
+    const auto& passes = plan_.description.passes;
+    for (size_t number = passes_begun_; number < passes.size(); ++number)
+        if (hasStep(passes[number], step))
+            return number;
+    for (size_t number = passes_begun_; number-- > 0;)
+        if (hasStep(passes[number], step) && isRepeated(step))
+            return number;
+    HEARTH_ASSERT(false); // the step is described, after those that were recorded
+    return 0;
+}
+
 void PassRecorder::beginPass(size_t number)
 {
     open_ = &plan_.description.passes[number];
     passes_begun_ = number + 1;
     subpass_ = 0;
-    const PassBarrier& wait = open_->barrier;
-    if (wait.from != 0)
-        barrier(device_, commands_, wait.from, wait.written, wait.to, wait.accessed);
-    if (open_->kind != PassKind::render)
-        return;
+    for (const PassBarrier& wait : {open_->barrier, open_->fragment_barrier})
+        if (wait.from != 0)
+            barrier(device_, commands_, wait.from, wait.written, wait.to, wait.accessed);
+}
 
-    const VkRect2D area{{0, 0}, targets_.extent()};
+void PassRecorder::beginRenderPass(VkRenderPass render_pass, VkFramebuffer framebuffer, VkExtent2D extent)
+{
+    const VkRect2D area{{0, 0}, extent};
     VkClearValue clear[kMaxAttachments] = {};
     const auto attachment_count = static_cast<uint32_t>(open_->attachments.size());
     HEARTH_ASSERT(attachment_count <= kMaxAttachments);
@@ -99,8 +129,8 @@ void PassRecorder::beginPass(size_t number)
         clear[i] = clearValue(open_->attachments[i].resource);
     VkRenderPassBeginInfo begin{};
     begin.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
-    begin.renderPass = plan_.render_passes[number].render_pass;
-    begin.framebuffer = targets_.framebuffer(plan_.render_passes[number].family);
+    begin.renderPass = render_pass;
+    begin.framebuffer = framebuffer;
     begin.renderArea = area;
     begin.clearValueCount = attachment_count;
     begin.pClearValues = clear;

@@ -23,8 +23,11 @@ public:
     PassRecorder& operator=(const PassRecorder&) = delete;
 
     /// End the pass before, if the step is not its next subpass, and begin the one that has the step, with
-    /// viewport and scissor set. Steps come in the table's order.
+    /// viewport and scissor set. Steps come in the table's order; those of shadow maps as often as there are
+    /// maps.
     void begin(FrameStep step);
+    /// The same for a pass that has a size of its own.
+    void begin(FrameStep step, VkFramebuffer framebuffer, VkExtent2D extent);
 
     /// End the pass that was begun last, if there is one.
     void end();
@@ -35,7 +38,9 @@ public:
     bool sharesPass(FrameStep first, FrameStep second) const;
 
 private:
+    size_t findNext(FrameStep step) const;
     void beginPass(size_t number);
+    void beginRenderPass(VkRenderPass render_pass, VkFramebuffer framebuffer, VkExtent2D extent);
     void nextSubpass();
     void handOut(const LayoutChange& change);
 

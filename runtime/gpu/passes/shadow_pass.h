@@ -12,7 +12,9 @@ namespace hearth::gpu
 class ShadowPass
 {
 public:
-    static Result<ShadowPass> create(const Device& device, const DrawLayouts& layouts);
+    /// render_pass  FramePasses::shadowMapPass
+    static Result<ShadowPass> create(const Device& device, const DrawLayouts& layouts,
+                                     VkRenderPass render_pass);
 
     /// Create the pipelines for scenes with deformed meshes; call once.
     Status prepareDeformed(const Device& device) { return casters_.prepareDeformed(device); }
@@ -22,14 +24,23 @@ public:
     Status createMaps(const Device& device, const formats::PackView& pack, const ShadowOptions& options,
                       VkCommandBuffer commands, Scene& scene) const;
 
-    /// Record a layer, after the culling pass has found its casters in a view. Outside a render pass. Results
-    /// are visible to later fragment shaders and transfers. Clobbers the graphics state.
+    /// Record, in FrameStep::shadow_cull, copies of the counters of maps, after their casters were found.
+    ///
+    /// views  of the maps
+    void recordCounters(const Device& device, VkCommandBuffer commands, const Scene& scene,
+                        std::span<const SceneView> views,
+                        std::span<const ShadowCache::LayerUpdate> maps) const;
+
+    /// Record FrameStep::shadow_copy of a map. Leaves its layer in TRANSFER_DST_OPTIMAL.
+    void recordCopy(const Device& device, VkCommandBuffer commands, const Scene& scene,
+                    const ShadowCache::LayerUpdate& map) const;
+
+    /// Record the draws of a map into its layer, in a render pass. Clobbers the graphics state.
     void recordMap(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                    const Scene& scene, const SceneView& view, const ShadowCache::LayerUpdate& map) const;
 
 private:
-    UniqueRenderPass clear_pass_;
-    UniqueRenderPass load_pass_;
+    VkRenderPass render_pass_ = VK_NULL_HANDLE;
     BinPass casters_;
 };
 

@@ -73,9 +73,7 @@ void SkinningPass::record(const Device& device, VkCommandBuffer commands, const 
     device.vk.vkCmdDispatchIndirect(commands, deformation.table.copy(scene.tables->frame).handle.get(),
                                     offsetof(shared::DeformationHeader, groups_x));
     // page requests read other parts of the buffer
-    barrier(device, commands, kCompute, VK_ACCESS_SHADER_WRITE_BIT,
-            kCompute | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT |
-                VK_PIPELINE_STAGE_TRANSFER_BIT,
+    barrier(device, commands, kCompute, VK_ACCESS_SHADER_WRITE_BIT, kCompute | VK_PIPELINE_STAGE_TRANSFER_BIT,
             VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_TRANSFER_READ_BIT);
 }
 

@@ -17,7 +17,7 @@ public:
     Status createSets(const Device& device, Scene& scene) const;
 
     /// Record after CullPass::record of the same phase. Outside a render pass. Results are visible to later
-    /// vertex and fragment shaders. Clobbers the compute state.
+    /// compute shaders and transfers. Clobbers the compute state.
     void record(const Device& device, VkCommandBuffer commands, const Scene& scene, uint32_t phase) const;
 
 private:

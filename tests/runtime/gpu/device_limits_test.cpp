@@ -58,18 +58,31 @@ VkResult createPipelineLayout(const viewer::VulkanHost& host, uint32_t storage_b
 
 } // namespace
 
-TEST(DeviceLimits, thoseOfAndroid15AndOfATileBasedGpuAreEnough)
+TEST(DeviceLimits, thoseOfAndroid15AndOfTileBasedGpusAreEnough)
 {
-    for (const char* profile : {"android15", "videocore6"})
+    for (const char* profile : {"android15", "videocore6", "adreno540", "adreno618", "malig52", "malig610"})
     {
         const auto host = createHost(profile);
         for (const FrameWay way : gpu::kFrameWays)
-            for (const MaterialTest materials : {MaterialTest::depth, MaterialTest::id})
-            {
-                const auto renderer =
-                    gpu::Renderer::create(host->description(), {.way = way, .materials = materials});
-                EXPECT_TRUE(renderer.ok()) << profile << formatMessage(renderer.error());
-            }
+        {
+            const auto renderer = gpu::Renderer::create(host->description(), {.way = way});
+            EXPECT_TRUE(renderer.ok()) << profile << formatMessage(renderer.error());
+        }
+        EXPECT_EQ(host->messages(), std::vector<std::string>{});
+    }
+}
+
+TEST(DeviceLimits, theStencilsFormatIsOnTileBasedGpus)
+{
+    for (const char* profile : {"android15", "videocore6", "adreno618", "malig52", "malig610"})
+    {
+        const auto host = createHost(profile);
+        for (const FrameWay way : gpu::kFrameWays)
+        {
+            const auto renderer =
+                gpu::Renderer::create(host->description(), {.way = way, .materials = MaterialTest::id});
+            EXPECT_TRUE(renderer.ok()) << profile << formatMessage(renderer.error());
+        }
         EXPECT_EQ(host->messages(), std::vector<std::string>{});
     }
 }
@@ -82,6 +95,27 @@ TEST(DeviceLimits, theLayerShowsThem)
     EXPECT_EQ(device->limits.maxPerStageDescriptorStorageBuffers, 12u);
     EXPECT_EQ(device->limits.maxComputeWorkGroupInvocations, 128u);
     EXPECT_FALSE(device->samples_unorm16);
+}
+
+TEST(DeviceLimits, theLayerShowsFormatsThatAreNotFiltered)
+{
+    const auto host = createHost("adreno540");
+    const gpu::DeviceDescription description = host->description();
+    const auto device = gpu::makeDevice(description);
+    ASSERT_TRUE(device.ok());
+    const auto features = [&](VkFormat format)
+    {
+        VkFormatProperties properties;
+        device->vk.vkGetPhysicalDeviceFormatProperties(description.physical_device, format, &properties);
+        return properties.optimalTilingFeatures;
+    };
+    for (const VkFormat format : {VK_FORMAT_D16_UNORM, VK_FORMAT_D32_SFLOAT})
+    {
+        EXPECT_NE(features(format) & VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT, 0u);
+        EXPECT_EQ(features(format) & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT, 0u);
+    }
+    EXPECT_FALSE(device->samples_unorm16);
+    EXPECT_FALSE(gpu::makeDevice(createHost("malig52")->description())->samples_unorm16);
 }
 
 TEST(DeviceLimits, theLayerRefusesMore)
@@ -105,12 +139,15 @@ TEST(DeviceLimits, theMinimumOfVulkanGetsOneClearError)
 
 TEST(DeviceLimits, theStencilsFormatIsNeededByMaterialsByIdAlone)
 {
-    const auto host = createHost("roadmap2022");
-    EXPECT_TRUE(gpu::Renderer::create(host->description()).ok());
-    const auto renderer = gpu::Renderer::create(host->description(), {.materials = MaterialTest::id});
-    ASSERT_FALSE(renderer.ok());
-    EXPECT_EQ(renderer.error().issue, Issue::device);
-    EXPECT_THAT(renderer.error().detail, testing::HasSubstr("cannot render to D32_SFLOAT_S8_UINT"));
+    for (const char* profile : {"roadmap2022", "adreno540"})
+    {
+        const auto host = createHost(profile);
+        EXPECT_TRUE(gpu::Renderer::create(host->description()).ok());
+        const auto renderer = gpu::Renderer::create(host->description(), {.materials = MaterialTest::id});
+        ASSERT_FALSE(renderer.ok());
+        EXPECT_EQ(renderer.error().issue, Issue::device);
+        EXPECT_THAT(renderer.error().detail, testing::HasSubstr("cannot render to D32_SFLOAT_S8_UINT"));
+    }
 }
 
 } // namespace hearth::test

@@ -150,11 +150,26 @@ bool clampLimit(const LimitValue& limit, VkPhysicalDeviceLimits& limits)
     return true;
 }
 
-DeviceProfile parseProfile(const Json& json)
+std::set<VkFormat> parseFormats(const Json& names)
 {
     static const std::map<std::string, VkFormat> kFormats = {
+        {"D16_UNORM", VK_FORMAT_D16_UNORM},
+        {"D32_SFLOAT", VK_FORMAT_D32_SFLOAT},
         {"D32_SFLOAT_S8_UINT", VK_FORMAT_D32_SFLOAT_S8_UINT},
         {"R16G16B16A16_UNORM", VK_FORMAT_R16G16B16A16_UNORM}};
+    std::set<VkFormat> formats;
+    for (const std::string& name : names.get<std::vector<std::string>>())
+    {
+        const auto found = kFormats.find(name);
+        if (found == kFormats.end())
+            stop("unknown format " + name);
+        formats.insert(found->second);
+    }
+    return formats;
+}
+
+DeviceProfile parseProfile(const Json& json)
+{
     DeviceProfile profile;
     for (const Json::Member& member : json.at("limits").items())
     {
@@ -173,13 +188,9 @@ DeviceProfile parseProfile(const Json& json)
             stop("unknown feature " + feature);
         profile.features.insert(feature);
     }
-    for (const std::string& format : json.at("missing_formats").get<std::vector<std::string>>())
-    {
-        const auto found = kFormats.find(format);
-        if (found == kFormats.end())
-            stop("unknown format " + format);
-        profile.missing_formats.insert(found->second);
-    }
+    profile.missing_formats = parseFormats(json.at("missing_formats"));
+    if (json.contains("unfiltered_formats"))
+        profile.unfiltered_formats = parseFormats(json.at("unfiltered_formats"));
     return profile;
 }
 
@@ -207,6 +218,16 @@ void clampFeatures(const DeviceProfile& profile, VkPhysicalDeviceFeatures& featu
     for (size_t i = 0; i < values.size(); ++i)
         if (!profile.features.contains(kFeatures[i]))
             values[i] = VK_FALSE;
+}
+
+void clampFormat(const DeviceProfile& profile, VkFormat format, VkFormatProperties& properties)
+{
+    if (profile.missing_formats.contains(format))
+        properties = {};
+    if (profile.unfiltered_formats.contains(format))
+        for (VkFormatFeatureFlags* features :
+             {&properties.linearTilingFeatures, &properties.optimalTilingFeatures})
+            *features &= ~VkFormatFeatureFlags{VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT};
 }
 
 std::string findMissingFeature(const DeviceProfile& profile, const VkPhysicalDeviceFeatures& enabled)

@@ -215,16 +215,14 @@ VKAPI_ATTR void VKAPI_CALL getFeatures2(VkPhysicalDevice device, VkPhysicalDevic
 VKAPI_ATTR void VKAPI_CALL getFormat(VkPhysicalDevice device, VkFormat format, VkFormatProperties* properties)
 {
     findInstance(device).format(device, format, properties);
-    if (profile().missing_formats.contains(format))
-        *properties = {};
+    clampFormat(profile(), format, *properties);
 }
 
 VKAPI_ATTR void VKAPI_CALL getFormat2(VkPhysicalDevice device, VkFormat format,
                                       VkFormatProperties2* properties)
 {
     findInstance(device).format2(device, format, properties);
-    if (profile().missing_formats.contains(format))
-        properties->formatProperties = {};
+    clampFormat(profile(), format, properties->formatProperties);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL createSetLayout(VkDevice device, const VkDescriptorSetLayoutCreateInfo* info,

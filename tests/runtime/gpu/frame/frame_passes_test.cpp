@@ -9,6 +9,7 @@
 #include <functional>
 #include <gtest/gtest.h>
 #include <map>
+#include <random>
 #include <set>
 
 namespace hearth::test
@@ -28,7 +29,9 @@ std::vector<FrameConfiguration> everyConfiguration()
             for (FrameConfiguration c : allConfigurations(way, materials))
                 for (const bool rich : {false, true})
                 {
-                    c.has_shadows = c.lights_bricks = rich;
+                    c.lights_bricks = rich;
+                    if (rich)
+                        addMapsOfAllKinds(c);
                     all.push_back(c);
                 }
     return all;
@@ -52,24 +55,27 @@ public:
         bool holds = true;
         for (const Pass& pass : frame.passes)
             holds = runPass(pass) && holds;
-        holds = matches(memory_, FrameResource::color) && holds;
+        holds = matches(memory_, {FrameResource::color, 0}) && holds;
         if (frame.configuration.keeps_visibility)
-            holds = matches(memory_, FrameResource::visibility) && holds;
+            holds = matches(memory_, {FrameResource::visibility, 0}) && holds;
         return holds;
     }
 
 private:
-    using Contents = std::map<FrameResource, int>; // version; absent: undefined
+    using Name = std::pair<FrameResource, uint32_t>; // and layer, of a shadow map
+    using Contents = std::map<Name, int>;            // version; absent: undefined
 
     bool runPass(const Pass& pass)
     {
+        map_ = pass.map;
         Contents tile;
         for (const AttachmentUse& use : pass.attachments)
         {
-            if (use.load == LoadOperation::load && memory_.contains(use.resource))
-                tile[use.resource] = memory_[use.resource];
+            const Name name = nameOf(use.resource);
+            if (use.load == LoadOperation::load && memory_.contains(name))
+                tile[name] = memory_[name];
             if (use.load == LoadOperation::clear)
-                write(tile, use.resource);
+                write(tile, name);
         }
         bool holds = true;
         for (const Subpass& subpass : pass.subpasses)
@@ -80,9 +86,10 @@ private:
             holds = runUse(use, memory_) && holds;
         for (const AttachmentUse& use : pass.attachments)
         {
-            memory_.erase(use.resource);
-            if (use.store && tile.contains(use.resource))
-                memory_[use.resource] = tile[use.resource];
+            const Name name = nameOf(use.resource);
+            memory_.erase(name);
+            if (use.store && tile.contains(name))
+                memory_[name] = tile[name];
         }
         return holds;
     }
@@ -92,25 +99,45 @@ private:
         const bool attached = use.access == Access::color_write || use.access == Access::depth_write;
         const bool reads = use.access == Access::input || use.access == Access::sampled ||
                            use.access == Access::vertex_read || use.access == Access::fragment_read ||
+                           use.access == Access::compute_read ||
                            (attached && use.content != Content::overwrite);
-        // what frames before leave: pyramid, points; maps are cached
-        const bool from_earlier_frame = !latest_.contains(use.resource);
-        const bool holds = !reads || (from_earlier_frame && !attached) || matches(contents, use.resource);
-        if (attached || use.access == Access::compute_write)
-            write(contents, use.resource);
+        const Name name = nameOf(use.resource);
+        bool holds = true;
+        if (reads && use.resource == FrameResource::shadow_map && !map_)
+            holds = matchesAllMaps(contents); // shading
+        else if (reads)                       // what frames before leave: pyramid, points
+            holds = (!latest_.contains(name) && !attached) || matches(contents, name);
+        if (attached || use.access == Access::compute_write || use.access == Access::copy_write)
+            write(contents, name);
         return holds;
     }
 
-    void write(Contents& contents, FrameResource resource) { contents[resource] = ++latest_[resource]; }
-
-    bool matches(const Contents& contents, FrameResource resource) const
+    Name nameOf(FrameResource resource) const
     {
-        const auto have = contents.find(resource);
-        const auto want = latest_.find(resource);
+        return {resource, resource == FrameResource::shadow_map ? map_.value_or(0) : 0};
+    }
+
+    void write(Contents& contents, Name name) { contents[name] = ++latest_[name]; }
+
+    bool matches(const Contents& contents, Name name) const
+    {
+        const auto have = contents.find(name);
+        const auto want = latest_.find(name);
         return have != contents.end() && want != latest_.end() && have->second == want->second;
     }
 
+    /// The maps that the frame draws; the others are cached.
+    bool matchesAllMaps(const Contents& contents) const
+    {
+        return std::all_of(latest_.begin(), latest_.end(),
+                           [&](const auto& latest) {
+                               return latest.first.first != FrameResource::shadow_map ||
+                                      matches(contents, latest.first);
+                           });
+    }
+
     Contents memory_, latest_;
+    std::optional<uint32_t> map_; ///< of the pass
 };
 
 size_t countFindings(const FrameDescription& frame, LintRule rule)
@@ -133,6 +160,7 @@ const AllowedWarning kAllowed[] = {
     {LintRule::spill, "visibility", "left the tile",
      "two phases: the pyramid of the early depth lies between"},
     {LintRule::spill, "visibility + shading", "left the tile", "as above"},
+    {LintRule::spill, "moving shadow map", "left the tile", "casters at rest are copied from another layer"},
     {LintRule::spill, "shading", "loads the visibility",
      "compute passes cannot run within a render pass: tiles, gathered light, parts; or a pyramid of the "
      "depth "
@@ -170,8 +198,6 @@ TEST(FramePasses, everyLoadAndStoreIsNeeded)
             {
                 FrameDescription changed = frame;
                 AttachmentUse& use = changed.passes[p].attachments[a];
-                if (use.resource == FrameResource::shadow_map)
-                    continue; // cached over frames
                 if (use.load == LoadOperation::load)
                 {
                     use.load = LoadOperation::none;
@@ -200,19 +226,125 @@ TEST(FramePasses, writesWaitForWhatIsReadBefore)
     ASSERT_TRUE(pyramid != nullptr && late != nullptr);
     EXPECT_NE(pyramid->barrier.from & VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT, 0u);
     EXPECT_NE(pyramid->barrier.written & VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT, 0u);
-    EXPECT_NE(late->barrier.from & VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0u);
-    EXPECT_NE(late->barrier.to & VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT, 0u);
+    EXPECT_NE(late->fragment_barrier.from & VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0u);
+    EXPECT_NE(late->fragment_barrier.to & VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT, 0u);
+    // the early draws read the list that the late phase adds to
+    const Pass* late_cull = findPass(frame, FrameStep::late_cull);
+    EXPECT_NE(late_cull->barrier.from & VK_PIPELINE_STAGE_VERTEX_SHADER_BIT, 0u);
+    EXPECT_NE(late_cull->barrier.from & VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT, 0u);
 }
 
-TEST(FramePasses, theNextFramesCullingDoesNotWaitForShading)
+TEST(FramePasses, theNextFramesGeometryDoesNotWaitForShading)
 {
+    constexpr VkPipelineStageFlags kGeometry = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT |
+                                               VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT |
+                                               VK_PIPELINE_STAGE_VERTEX_SHADER_BIT;
     for (const FrameConfiguration& c : everyConfiguration())
-        for (const FrameStep step : {FrameStep::cull, FrameStep::late_cull})
-            if (const Pass* pass = findPass(describeFrame(c), step))
+    {
+        const FrameDescription frame = describeFrame(c);
+        for (const Pass& pass : frame.passes)
+        {
+            const FrameStep step = pass.steps.front();
+            if (step == FrameStep::early_pyramid || step == FrameStep::pyramid ||
+                step == FrameStep::material_tiles || step == FrameStep::gather)
+                break; // waits for this frame's own fragments
+            if (pass.kind != PassKind::transfer)
             {
-                EXPECT_EQ(pass->barrier.from & ~VkPipelineStageFlags{VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT},
-                          0u);
+                EXPECT_EQ(pass.barrier.from & ~kGeometry, 0u) << passName(pass);
             }
+        }
+    }
+}
+
+TEST(FramePasses, theFrontOfAFrameWaitsForWhatEarlierFramesShare)
+{
+    FrameConfiguration c{.lights_bricks = true};
+    addMapsOfAllKinds(c);
+    const FrameDescription frame = describeFrame(c);
+    for (const FrameStep step :
+         {FrameStep::update, FrameStep::brick_light, FrameStep::shadow_cull, FrameStep::cull})
+    {
+        const PassBarrier& wait = findPass(frame, step)->barrier;
+        EXPECT_EQ(wait.from, VkPipelineStageFlags{VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT}) << stepName(step);
+        EXPECT_EQ(wait.to, VkPipelineStageFlags{VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT}) << stepName(step);
+        EXPECT_NE(wait.written & VK_ACCESS_SHADER_WRITE_BIT, 0u) << stepName(step);
+    }
+    // the last frame may sample the layer that a map is drawn into
+    const PassBarrier& map = findPass(frame, FrameStep::shadow_map)->fragment_barrier;
+    EXPECT_NE(map.from & VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, 0u);
+    EXPECT_NE(map.to & VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT, 0u);
+    EXPECT_NE(findPass(frame, FrameStep::shadow_copy)->barrier.from & VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
+              0u);
+}
+
+TEST(FramePasses, shadowMapsAreListedOneByOne)
+{
+    constexpr uint32_t kMaps = 20, kAtOnce = 8;
+    FrameConfiguration c{.has_shadows = true, .maps_at_once = kAtOnce};
+    const double without = measureTraffic(describeFrame(c)).low;
+    for (uint32_t map = 0; map < kMaps; ++map)
+        c.maps.push_back(map % 5 == 4 ? MapContent::moving : MapContent::fresh);
+    const FrameDescription frame = describeFrame(c);
+    std::map<FrameStep, uint32_t> counts;
+    for (const Pass& pass : frame.passes)
+    {
+        const FrameStep step = pass.steps.front();
+        ++counts[step];
+        if (step == FrameStep::shadow_map)
+        {
+            EXPECT_DOUBLE_EQ(measureTraffic(pass).low, 4);
+        }
+        if (step == FrameStep::shadow_copy || step == FrameStep::moving_shadow_map)
+        {
+            EXPECT_DOUBLE_EQ(measureTraffic(pass).low, 8);
+        }
+    }
+    EXPECT_EQ(counts[FrameStep::shadow_map], 16u);
+    EXPECT_EQ(counts[FrameStep::shadow_copy], 4u);
+    EXPECT_EQ(counts[FrameStep::moving_shadow_map], 4u);
+    EXPECT_EQ(counts[FrameStep::shadow_cull], 3u);
+    EXPECT_DOUBLE_EQ(measureTraffic(frame).low, without);
+    for (const LintFinding& finding : lint(frame))
+        EXPECT_FALSE(finding.is_error) << finding.pass << ": " << finding.text;
+    EXPECT_TRUE(Simulation().run(frame));
+}
+
+TEST(FramePasses, furtherShadowMapsAreLikeThoseOfThePlan)
+{
+    const auto same = [](const PassBarrier& a, const PassBarrier& b)
+    { return a.from == b.from && a.written == b.written && a.to == b.to && a.accessed == b.accessed; };
+    std::mt19937 random(1);
+    for (int repetition = 0; repetition < 50; ++repetition)
+    {
+        FrameConfiguration c{.lights_bricks = true};
+        addMapsOfAllKinds(c);
+        const FrameDescription plan = describeFrame(c);
+        c.maps.assign(random() % 20, MapContent::fresh);
+        for (MapContent& map : c.maps)
+            map = random() % 3 == 0 ? MapContent::moving : MapContent::fresh;
+        c.maps_at_once = 1 + static_cast<uint32_t>(random() % 8);
+        size_t rounds = 0;
+        for (const Pass& pass : describeFrame(c).passes)
+        {
+            std::vector<const Pass*> planned;
+            for (const Pass& p : plan.passes)
+                if (p.steps == pass.steps)
+                    planned.push_back(&p);
+            // rounds after the first wait for the draws before
+            const bool is_first = pass.steps.front() == FrameStep::shadow_cull && rounds++ == 0;
+            const Pass& like = is_first ? *planned.front() : *planned.back();
+            EXPECT_TRUE(same(pass.barrier, like.barrier)) << passName(pass);
+            EXPECT_TRUE(same(pass.fragment_barrier, like.fragment_barrier)) << passName(pass);
+            ASSERT_EQ(pass.attachments.size(), like.attachments.size());
+            for (size_t i = 0; i < pass.attachments.size(); ++i)
+            {
+                EXPECT_EQ(pass.attachments[i].load, like.attachments[i].load);
+                EXPECT_EQ(pass.attachments[i].store, like.attachments[i].store);
+                EXPECT_EQ(pass.attachments[i].initial_layout, like.attachments[i].initial_layout);
+                EXPECT_EQ(pass.attachments[i].final_layout, like.attachments[i].final_layout);
+            }
+        }
+    }
 }
 
 TEST(FramePasses, haveFewBytesAPixel)
@@ -311,7 +443,7 @@ TEST(FramePasses, partsLeaveTheSameImageStatesOnEveryWay)
             EXPECT_NE(layouts(*one).second, VK_IMAGE_LAYOUT_UNDEFINED);
         }
         // shading waits for what the caller does between the parts
-        const PassBarrier& wait = findPass(separate, FrameStep::shading)->barrier;
+        const PassBarrier& wait = findPass(separate, FrameStep::shading)->fragment_barrier;
         EXPECT_EQ(wait.from & kCallerStages, kCallerStages);
         EXPECT_NE(wait.to & VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, 0u);
     }
@@ -327,7 +459,7 @@ TEST(FramePasses, sumToTheFrame)
         {
             const Traffic traffic = measureTraffic(pass);
             EXPECT_LE(traffic.low, traffic.high);
-            if (pass.steps.front() == FrameStep::shadow_maps)
+            if (hasOwnSize(pass))
                 continue;
             sum.low += traffic.low;
             sum.high += traffic.high;
@@ -452,6 +584,24 @@ TEST(FrameLint, findsAPlantedErrorOfEachRule)
     }
 }
 
+TEST(FrameLint, findsErrorsOfShadowMaps)
+{
+    FrameConfiguration c;
+    addMapsOfAllKinds(c);
+    FrameDescription uncopied = describeFrame(c);
+    std::erase_if(uncopied.passes,
+                  [](const Pass& pass) { return pass.steps.front() == FrameStep::shadow_copy; });
+    for (Pass& pass : uncopied.passes)
+        if (pass.steps.front() == FrameStep::shadow_map)
+            pass.attachments.front().store = false;
+    EXPECT_EQ(countFindings(uncopied, LintRule::undefined_load), 1u);
+    FrameDescription unread = describeFrame(c);
+    for (Pass& pass : unread.passes)
+        std::erase_if(pass.uses, [&](const ResourceUse& use)
+                      { return use.resource == FrameResource::shadow_map && !pass.map; });
+    EXPECT_EQ(countFindings(unread, LintRule::useless_store), c.maps.size());
+}
+
 TEST(FrameWays, areChosenByWhatIsKnownOfADevice)
 {
     constexpr uint32_t kApple = 0x106B, kArm = 0x13B5, kQualcomm = 0x5143;
@@ -470,10 +620,13 @@ TEST(FrameWays, areChosenByWhatIsKnownOfADevice)
 
 TEST(FrameText, saysWhatCrossesTheBus)
 {
-    const FrameDescription frame = describeFrame({.has_shadows = true});
+    const FrameDescription frame =
+        describeFrame({.has_shadows = true, .maps = {MapContent::fresh, MapContent::moving}});
     const std::string text = formatFrameText(frame), json = formatFrameJson(frame);
     EXPECT_NE(text.find("25.33   33.33"), std::string::npos) << text;
     EXPECT_NE(text.find("visibility + shading"), std::string::npos);
+    for (const char* name : {"\nshadow map ", "\nshadow copy ", "\nmoving shadow map "})
+        EXPECT_NE(text.find(name), std::string::npos) << text;
     EXPECT_NE(json.find("\"bytes_per_pixel\":{\"low\":25.33,\"high\":33.33}"), std::string::npos) << json;
     EXPECT_NE(json.find("\"warnings\":["), std::string::npos);
 }
