@@ -302,6 +302,8 @@ hearth_result hearth_record_missing(hearth_scene* scene, hearth_targets* targets
                         return usage("targets or commands is NULL");
                     if (targets->scene.lock() != scene->scene || scene->parts_recorded != kNothing)
                         return usage("no whole frame of the scene has been recorded with the targets");
+                    if (!targets->targets.options().counts_missing)
+                        return usage("the targets lack HEARTH_TARGETS_COUNT_MISSING");
                     scene->renderer->renderer->recordMissing(commands, *scene->scene, targets->targets);
                     return success();
                 });

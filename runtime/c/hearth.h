@@ -383,8 +383,8 @@ HEARTH_API hearth_result hearth_scene_get_shadow_counters(const hearth_scene* sc
 enum
 {
     HEARTH_OCCLUSION_TWO_PHASE = 0, /* lossless */
-    /* Against the last frame's depth alone, in one render pass: objects that come into view may be missing for
-     * a frame. */
+    /* Against an earlier frame's depth alone, in one render pass: objects that come into view may be missing
+     * for a frame, or for two where no part, tiles or gathered light lie between visibility and shading. */
     HEARTH_OCCLUSION_LAST_FRAME = 1,
     HEARTH_OCCLUSION_OFF = 2 /* as without HEARTH_CULL_OCCLUSION */
 };
@@ -393,7 +393,8 @@ enum
 {
     HEARTH_TARGETS_KEEP_VISIBILITY = 1, /* the visibility buffer can be copied after a frame */
     /* frames may be recorded in parts, or with HEARTH_SHADE_TILES, also where the scene does not need it */
-    HEARTH_TARGETS_SPLIT = 2
+    HEARTH_TARGETS_SPLIT = 2,
+    HEARTH_TARGETS_COUNT_MISSING = 4 /* hearth_record_missing may follow a frame: takes a second pyramid */
 };
 
 /* What frames with the targets may ask for (1.8): images that never leave a tile-based GPU's tile need no
@@ -896,8 +897,8 @@ HEARTH_API hearth_result hearth_describe_passes(const hearth_scene* scene, const
                                                 size_t* needed);
 
 /* Record a count of what a frame with HEARTH_OCCLUSION_LAST_FRAME left out (1.8), after it and before the scene's
- * next frame: of the counters, drawn_clusters - early_clusters are clusters that the last frame's depth hid and
- * this one's does not. errors: USAGE. */
+ * next frame: of the counters, drawn_clusters - early_clusters are clusters that the earlier frame's depth hid
+ * and this one's does not. The targets have HEARTH_TARGETS_COUNT_MISSING. errors: USAGE. */
 HEARTH_API hearth_result hearth_record_missing(hearth_scene* scene, hearth_targets* targets,
                                                VkCommandBuffer commands);
 

@@ -36,8 +36,9 @@ Status check(const hearth_renderer& renderer, const hearth_targets_description& 
         return usage("width or height is 0");
     if (description.occlusion > HEARTH_OCCLUSION_OFF)
         return usage("occlusion has a value that this version does not know");
-    if ((description.flags & ~uint32_t{HEARTH_TARGETS_KEEP_VISIBILITY | HEARTH_TARGETS_SPLIT}) != 0 ||
-        description.reserved != 0)
+    constexpr uint32_t kFlags =
+        HEARTH_TARGETS_KEEP_VISIBILITY | HEARTH_TARGETS_SPLIT | HEARTH_TARGETS_COUNT_MISSING;
+    if ((description.flags & ~kFlags) != 0 || description.reserved != 0)
         return usage("flags has bits that this version does not know, or reserved is not 0");
     if (description.scene != nullptr && description.scene->renderer != &renderer)
         return usage("the scene is of another renderer");
@@ -47,7 +48,8 @@ Status check(const hearth_renderer& renderer, const hearth_targets_description& 
 gpu::TargetOptions toOptions(const hearth_targets_description& description)
 {
     gpu::TargetOptions options{.occlusion = toOcclusion(description.occlusion),
-                               .keeps_visibility = (description.flags & HEARTH_TARGETS_KEEP_VISIBILITY) != 0};
+                               .keeps_visibility = (description.flags & HEARTH_TARGETS_KEEP_VISIBILITY) != 0,
+                               .counts_missing = (description.flags & HEARTH_TARGETS_COUNT_MISSING) != 0};
     if (description.scene == nullptr)
         return options;
     const gpu::Scene& scene = *description.scene->scene;

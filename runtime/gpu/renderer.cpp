@@ -258,13 +258,21 @@ void Renderer::recordMaterials(VkCommandBuffer commands, const Scene& scene, Fra
 
 void Renderer::recordMissing(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets) const
 {
+    HEARTH_ASSERT(targets.options().counts_missing);
     const DebugLabel label(device_, commands, "missing clusters");
-    // the frame's draws and shading have read the list that grows here
+    // the frame's draws and shading have read the list that grows here, and have written the depth
     barrier(device_, commands,
             VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
-                VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-            0, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, 0);
-    cull_.record(device_, commands, scene, scene.frame().main, targets.occlusionSet(), shared::kPhaseLate);
+                VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT |
+                VK_PIPELINE_STAGE_TRANSFER_BIT,
+            VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+            VK_ACCESS_SHADER_READ_BIT);
+    // the next frame makes the same pyramid again, and until then tests the one before
+    const bool leaves_depth = targets.depthView().level_count != 0;
+    const VkDescriptorSet set = leaves_depth ? targets.nextOcclusionSet() : targets.occlusionSet();
+    if (leaves_depth)
+        pyramid_.record(device_, commands, targets, set);
+    cull_.record(device_, commands, scene, scene.frame().main, set, shared::kPhaseLate);
 }
 
 void Renderer::recordPrefetch(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
@@ -369,6 +377,8 @@ void Renderer::recordEarly(VkCommandBuffer commands, const Scene& scene, FrameTa
         passes.begin(FrameStep::early_pyramid);
         recordPyramid(commands, targets, input);
     }
+    if (passes.has(FrameStep::last_pyramid))
+        recordLastPyramid(commands, targets, passes);
     writeTimestamp(device_, commands, input.timestamps, kTimestampPyramid);
     if (has_two_phases)
     {
@@ -385,8 +395,21 @@ void Renderer::recordEarly(VkCommandBuffer commands, const Scene& scene, FrameTa
 void Renderer::recordPyramid(VkCommandBuffer commands, FrameTargets& targets, const FrameInput& input) const
 {
     const DebugLabel label(device_, commands, "pyramid");
-    pyramid_.record(device_, commands, targets);
+    pyramid_.record(device_, commands, targets, targets.occlusionSet());
     targets.setPyramidView(shared::makeOcclusionView(input.view));
+}
+
+/// Make the pyramid that the next frame's culling tests, of the depth of the frame before, if that left one.
+void Renderer::recordLastPyramid(VkCommandBuffer commands, FrameTargets& targets, PassRecorder& passes) const
+{
+    const shared::OcclusionView view = targets.depthView();
+    if (view.level_count == 0)
+        return;
+    const DebugLabel label(device_, commands, "pyramid");
+    passes.begin(FrameStep::last_pyramid);
+    pyramid_.record(device_, commands, targets, targets.nextOcclusionSet());
+    passes.end();
+    targets.takeNextPyramid(view);
 }
 
 /// Record up to the visibility buffer. Leaves its render pass open if shading follows there.
@@ -452,11 +475,8 @@ void Renderer::recordShaded(VkCommandBuffer commands, const Scene& scene, FrameT
             shading_.record(device_, commands, layouts_, scene, targets, input.shading);
     }
     passes.end();
-    if (is_open && passes.has(FrameStep::pyramid))
-    {
-        passes.begin(FrameStep::pyramid);
-        recordPyramid(commands, targets, input);
-    }
+    targets.setDepthView(passes.has(FrameStep::last_pyramid) ? shared::makeOcclusionView(input.view)
+                                                             : shared::OcclusionView{});
     writeTimestamp(device_, commands, input.timestamps, kTimestampShading);
 }
 

@@ -48,7 +48,7 @@ struct FrameInput
 {
     shared::FrameView view; ///< from shared::makeFrameView, with the size of the targets
     ShadingSettings shading{};
-    /// With kCullOcclusion: cull against the last frame's depth alone (OcclusionCulling::last_frame).
+    /// With kCullOcclusion: cull against an earlier frame's depth alone (OcclusionCulling::last_frame).
     bool occludes_by_last_frame = false;
     std::span<const InstanceMove> moves{}; ///< valid from this frame on; read while recording
     /// Poses of deformed instances, which start at rest. Valid from this frame on; read while recording.
@@ -123,8 +123,9 @@ public:
                          const FrameInput& input) const;
 
     /// Record a count of what a frame with occludes_by_last_frame left out, after it and before the scene's
-    /// next frame: clusters that the last frame's depth hid and this one's does not. They follow in the
-    /// visible list from FrameCounters::early_clusters on. Clobbers compute state.
+    /// next frame: clusters that the earlier frame's depth hid and this one's does not. They follow in the
+    /// visible list from FrameCounters::early_clusters on. Clobbers compute state. Needs
+    /// TargetOptions::counts_missing.
     void recordMissing(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets) const;
 
     /// Record page requests for a view without drawing. For a streamed scene, in place of record. Clobbers
@@ -155,6 +156,7 @@ private:
     void recordShaded(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                       const FrameInput& input, PassRecorder& passes) const;
     void recordPyramid(VkCommandBuffer commands, FrameTargets& targets, const FrameInput& input) const;
+    void recordLastPyramid(VkCommandBuffer commands, FrameTargets& targets, PassRecorder& passes) const;
     void recordOverdraw(VkCommandBuffer commands, const Scene& scene) const;
 
     Device device_;

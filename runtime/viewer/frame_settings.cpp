@@ -90,7 +90,8 @@ gpu::TargetOptions targetOptions(const FrameSettings& settings, const gpu::Scene
                                                            : gpu::OcclusionCulling::two_phase,
             .keeps_visibility = keeps_visibility,
             .gathers_light = gathers,
-            .may_split = gathers || gpu::shadesTiles(scene, settings.shaded_area)};
+            .may_split = gathers || gpu::shadesTiles(scene, settings.shaded_area),
+            .counts_missing = settings.occludes_by_last_frame};
 }
 
 gpu::FrameInput makeFrame(const FrameSettings& settings, const shared::Camera& camera,

@@ -26,9 +26,9 @@ constexpr ResourceFacts kResources[] = {
 static_assert(std::size(kResources) == static_cast<size_t>(FrameResource::count));
 
 constexpr const char* kSteps[] = {
-    "update",       "light bricks",     "shadow cull",   "shadow map", "shadow copy", "moving shadow map",
-    "cull",         "early visibility", "early pyramid", "late cull",  "visibility",  "material tiles",
-    "gather light", "shading",          "pyramid",
+    "update",  "light bricks",   "shadow cull",      "shadow map",    "shadow copy", "moving shadow map",
+    "cull",    "last pyramid",   "early visibility", "early pyramid", "late cull",   "visibility",
+    "pyramid", "material tiles", "gather light",     "shading",
 };
 static_assert(std::size(kSteps) == static_cast<size_t>(FrameStep::count));
 

@@ -64,14 +64,15 @@ enum class FrameStep : uint8_t
     shadow_copy,       ///< begin a map as a copy of its casters at rest
     moving_shadow_map, ///< draw the casters that move on top
     cull,
+    last_pyramid, ///< of the last frame's depth, for the next frame
     early_visibility,
     early_pyramid, ///< of the early phase
     late_cull,
     visibility,
+    pyramid, ///< for the next frame
     material_tiles,
     gather,
     shading,
-    pyramid, ///< for the next frame
     count,
 };
 const char* stepName(FrameStep step);
@@ -126,11 +127,12 @@ struct AttachmentUse
     FrameResource resource;
     LoadOperation load = LoadOperation::none;
     bool store = false;
-    const char* reader = nullptr; ///< step that needs what is stored, or kCaller; null if it is not stored
+    const char* reader = nullptr; ///< step that needs what is stored, kCaller or kNextFrame; null: not stored
     VkImageLayout initial_layout = VK_IMAGE_LAYOUT_UNDEFINED;
     VkImageLayout final_layout = VK_IMAGE_LAYOUT_UNDEFINED;
 };
 inline constexpr const char* kCaller = "the caller";
+inline constexpr const char* kNextFrame = "the next frame";
 
 /// Geometry that covers the frame where a step draws no clusters.
 enum class Cover : uint8_t
@@ -202,6 +204,8 @@ struct Pass
     PassBarrier barrier{}; ///< before compute shaders, copies and vertices of the pass
     /// Before the fragments and attachments of a render pass, whose vertices need not wait for as much.
     PassBarrier fragment_barrier{};
+    /// Right behind a pass whose lists draws read: their vertices wait for no pass that lies between.
+    PassBarrier vertex_barrier{};
     /// Number of the shadow map that the pass draws, or begins, in a layer of its own.
     std::optional<uint32_t> map{};
     /// Images that the pass reads and the caller gets after it, visible to transfers.
@@ -231,8 +235,10 @@ enum class MapContent : uint8_t
 enum class OcclusionCulling : uint8_t
 {
     off,
-    last_frame, ///< against the last frame's depth: objects that come into view may be missing for a frame
-    two_phase,  ///< lossless
+    /// Against an earlier frame's depth: objects that come into view may be missing for a frame, or for two
+    /// where nothing lies between visibility and shading (FrameStep::last_pyramid).
+    last_frame,
+    two_phase, ///< lossless
 };
 
 /// Way through a frame: its render passes. The image is the same.

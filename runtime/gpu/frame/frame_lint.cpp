@@ -162,7 +162,17 @@ private:
         }
         const bool handed_out = resource == Resource::color ||
                                 (resource == Resource::visibility && frame_.configuration.keeps_visibility);
-        return handed_out ? kCaller : "";
+        if (handed_out)
+            return kCaller;
+        // the next frame has the same passes
+        for (size_t i = 0; i <= number && resource != Resource::shadow_map; ++i)
+        {
+            if (needs(frame_.passes[i], resource))
+                return kNextFrame;
+            if (findAttachment(frame_.passes[i], resource) != nullptr)
+                break;
+        }
+        return "";
     }
 
     void checkStores(size_t number)

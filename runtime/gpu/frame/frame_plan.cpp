@@ -130,6 +130,13 @@ bool splitsAtVisibility(const FrameConfiguration& c)
     return !hasSubpasses(c.way) || c.material_tiles || c.gathers_light || c.in_parts || loses_depth;
 }
 
+/// True if the depth of a frame becomes a pyramid in the next one, behind its culling. Made in its own frame,
+/// behind shading, it would have the next frame's culling wait for shading.
+bool defersPyramid(const FrameConfiguration& c)
+{
+    return c.occlusion == OcclusionCulling::last_frame && !splitsAtVisibility(c);
+}
+
 std::vector<Step> listSteps(const FrameConfiguration& c)
 {
     const bool two_phases = c.occlusion == OcclusionCulling::two_phase;
@@ -150,6 +157,8 @@ std::vector<Step> listSteps(const FrameConfiguration& c)
     steps.push_back(cullStep(FrameStep::cull, Resource::visible_list));
     if (c.occlusion != OcclusionCulling::off)
         steps.back().uses.push_back(kPyramidTexels);
+    if (defersPyramid(c))
+        steps.push_back(pyramidStep(FrameStep::last_pyramid));
     if (two_phases)
     {
         steps.push_back(visibilityStep(FrameStep::early_visibility, Content::begin));
@@ -158,8 +167,7 @@ std::vector<Step> listSteps(const FrameConfiguration& c)
         steps.back().uses.push_back(kPyramidTexels);
     }
     steps.push_back(visibilityStep(FrameStep::visibility, two_phases ? Content::keep : Content::begin));
-    const bool split = splitsAtVisibility(c);
-    if (split && c.occlusion == OcclusionCulling::last_frame)
+    if (c.occlusion == OcclusionCulling::last_frame && !defersPyramid(c))
         steps.push_back(pyramidStep(FrameStep::pyramid));
     if (c.material_tiles)
         steps.push_back({.step = FrameStep::material_tiles,
@@ -177,8 +185,6 @@ std::vector<Step> listSteps(const FrameConfiguration& c)
                                   {Resource::gather_points, Access::compute_write, Content::keep},
                                   {Resource::gathered_light, Access::compute_write, Content::overwrite}}});
     steps.push_back(shadingStep(c));
-    if (!split && c.occlusion == OcclusionCulling::last_frame)
-        steps.push_back(pyramidStep(FrameStep::pyramid));
     return steps;
 }
 
@@ -327,6 +333,12 @@ void setAttachments(const FrameConfiguration& c, std::span<Pass> passes, size_t 
             const Access access = firstUse(*reader, resource)->access;
             attachment.final_layout = accessLayout(access);
         }
+        else if (has_content && resource == Resource::depth && defersPyramid(c))
+        {
+            attachment.store = true;
+            attachment.reader = kNextFrame;
+            attachment.final_layout = accessLayout(Access::sampled);
+        }
         else if (has_content && isHandedOut(c, resource))
         {
             attachment.store = true;
@@ -442,7 +454,19 @@ bool isByFragments(Access access)
     return (accessStages(access) & ~kFragments) == 0;
 }
 
-/// Derive the barriers before a pass: writes wait for all uses since the last write, reads for that write.
+/// Last pass before `number` that writes a resource; null if an earlier frame did.
+Pass* findWriter(std::span<Pass> passes, size_t number, Resource resource)
+{
+    while (number-- > 0)
+    {
+        const std::vector<Access> accesses = listAccesses(passes[number], resource);
+        if (std::any_of(accesses.begin(), accesses.end(), isWrite))
+            return &passes[number];
+    }
+    return nullptr;
+}
+
+/// Derive the barriers of a pass: writes wait for all uses since the last write, reads for that write.
 void setBarriers(const FrameConfiguration& c, std::span<Pass> passes, size_t number,
                  const Touches& earlier_frames)
 {
@@ -461,7 +485,10 @@ void setBarriers(const FrameConfiguration& c, std::span<Pass> passes, size_t num
             const VkPipelineStageFlags from = changes ? before.stages : before.writers;
             if (from == 0)
                 continue;
-            PassBarrier& barrier = isByFragments(access) ? pass.fragment_barrier : pass.barrier;
+            Pass* writer = access == Access::vertex_read ? findWriter(passes, number, resource) : nullptr;
+            PassBarrier& barrier = writer != nullptr       ? writer->vertex_barrier
+                                   : isByFragments(access) ? pass.fragment_barrier
+                                                           : pass.barrier;
             barrier.from |= from;
             barrier.written |= before.written;
             barrier.to |= accessStages(access);

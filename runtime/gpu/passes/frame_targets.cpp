@@ -62,7 +62,7 @@ Result<FrameTargets> FrameTargets::create(const Device& device, const FramePasse
     FrameTargets t(device, extent, options);
     HEARTH_TRY(t.createImages(device, passes));
     HEARTH_TRY(t.createFramebuffers(device, passes));
-    HEARTH_TRY(t.createPyramid(device));
+    HEARTH_TRY(t.createPyramids(device));
     HEARTH_TRY(t.createTileLists(device));
     HEARTH_TRY(t.createSets(device, layouts, passes.way()));
     return t;
@@ -155,7 +155,7 @@ void FrameTargets::beginFrame(const shared::FrameView& view)
     std::memcpy(occlusion_[current_].views.mapped, views, sizeof(views));
 }
 
-Status FrameTargets::createPyramid(const Device& device)
+Status FrameTargets::createPyramids(const Device& device)
 {
     const auto [width, height] = extent_;
     const uint64_t texels = shared::pyramidOffset(width, height, shared::pyramidLevels(width, height) + 1);
@@ -163,11 +163,13 @@ Status FrameTargets::createPyramid(const Device& device)
         return Error{Issue::device_limit, "", "",
                      "the device cannot bind the depth pyramid of " + std::to_string(width) + "x" +
                          std::to_string(height) + " pixels"};
-    HEARTH_ASSIGN_OR_RETURN(pyramid_, arena_.createBuffer(texels * sizeof(float),
-                                                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
-                                                              VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-                                                              VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                                          MemoryKind::device));
+    constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT |
+                                          VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    for (uint32_t number = 0; number < pyramidCount(); ++number)
+    {
+        HEARTH_ASSIGN_OR_RETURN(pyramids_[number],
+                                arena_.createBuffer(texels * sizeof(float), kUsage, MemoryKind::device));
+    }
     for (OcclusionViews& occlusion : occlusion_)
     {
         HEARTH_ASSIGN_OR_RETURN(occlusion.views,
@@ -204,11 +206,12 @@ Status FrameTargets::createSets(const Device& device, const DrawLayouts& layouts
         HEARTH_ASSIGN_OR_RETURN(gather_, GatherTargets::create(device, layouts, arena_, extent_,
                                                                visibility_.view.get(), texel_sampler_.get()));
     }
-    const DescriptorPoolSizes sizes{.uniforms = kMaxFramesInFlight,
-                                    .storages = 3 + kMaxFramesInFlight,
-                                    .textures = 3 + kMaxFramesInFlight,
+    const uint32_t occlusion_sets = kMaxFramesInFlight * pyramidCount();
+    const DescriptorPoolSizes sizes{.uniforms = occlusion_sets,
+                                    .storages = 3 + occlusion_sets,
+                                    .textures = 3 + occlusion_sets,
                                     .inputs = 1};
-    HEARTH_ASSIGN_OR_RETURN(pool_, createDescriptorPool(device, 2 + kMaxFramesInFlight, sizes));
+    HEARTH_ASSIGN_OR_RETURN(pool_, createDescriptorPool(device, 2 + occlusion_sets, sizes));
     HEARTH_ASSIGN_OR_RETURN(set_, allocateSet(device, pool_.get(), layouts.attachments.get()));
     DescriptorWriter attachments(set_);
     if (hasSubpasses(way))
@@ -229,15 +232,17 @@ Status FrameTargets::createSets(const Device& device, const DrawLayouts& layouts
         HEARTH_ASSIGN_OR_RETURN(no_depth_, createTexel(arena_, VK_FORMAT_R32_SFLOAT));
     }
     for (OcclusionViews& occlusion : occlusion_)
-    {
-        HEARTH_ASSIGN_OR_RETURN(occlusion.set, allocateSet(device, pool_.get(), layouts.occlusion.get()));
-        DescriptorWriter(occlusion.set)
-            .uniform(shared::kOcclusionViews, occlusion.views)
-            .storage(shared::kOcclusionPyramid, pyramid_)
-            .texture(shared::kOcclusionDepth, has_depth ? sampled_depth_.get() : no_depth_.view.get(),
-                     texel_sampler_.get())
-            .write(device);
-    }
+        for (uint32_t number = 0; number < pyramidCount(); ++number)
+        {
+            VkDescriptorSet& set = occlusion.sets[number];
+            HEARTH_ASSIGN_OR_RETURN(set, allocateSet(device, pool_.get(), layouts.occlusion.get()));
+            DescriptorWriter(set)
+                .uniform(shared::kOcclusionViews, occlusion.views)
+                .storage(shared::kOcclusionPyramid, pyramids_[number])
+                .texture(shared::kOcclusionDepth, has_depth ? sampled_depth_.get() : no_depth_.view.get(),
+                         texel_sampler_.get())
+                .write(device);
+        }
     if (!options_.may_split)
         return success();
     HEARTH_ASSIGN_OR_RETURN(tile_set_, allocateSet(device, pool_.get(), layouts.tiles.get()));

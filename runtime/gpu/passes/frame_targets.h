@@ -26,6 +26,7 @@ struct TargetOptions
     bool gathers_light = true;     ///< frames of scenes with bricks gather indirect light
     /// Frames may be split between visibility and shading: material tiles, gathered light, parts.
     bool may_split = true;
+    bool counts_missing = false; ///< Renderer::recordMissing may follow a frame: takes a second pyramid
 };
 
 /// Render targets of one camera. After a frame `color` is in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, visible to
@@ -56,9 +57,13 @@ public:
     /// allocatedBytes leaves them out.
     VkDeviceSize transientBytes() const { return arena_.transientBytes(); }
 
-    const Buffer& pyramid() const { return pyramid_; } ///< floats; layout in formats/gpu_shared/occlusion.h
-    /// Set of the frame that was begun last.
-    VkDescriptorSet occlusionSet() const { return occlusion_[current_].set; }
+    VkDeviceSize pyramidBytes() const { return pyramids_[0].size + pyramids_[1].size; }
+    /// Pyramid that culling tests: floats; layout in formats/gpu_shared/occlusion.h.
+    const Buffer& pyramid() const { return pyramids_[pyramid_]; }
+    /// Set of the frame that was begun last, with this pyramid.
+    VkDescriptorSet occlusionSet() const { return occlusion_[current_].sets[pyramid_]; }
+    /// The same with the pyramid that is made next.
+    VkDescriptorSet nextOcclusionSet() const { return occlusion_[current_].sets[nextPyramid()]; }
     /// Begin a frame that draws this view: its culling tests boxes in this one and in pyramidView().
     void beginFrame(const shared::FrameView& view);
 
@@ -72,11 +77,21 @@ public:
     GatherTargets& gather() { return *gather_; }
     const GatherTargets& gather() const { return *gather_; }
 
-    /// View that the pyramid was rendered from: the last frame with occlusion culling. level_count 0: none.
+    /// View that the pyramid was rendered from, of an earlier frame. level_count 0: none.
     const shared::OcclusionView& pyramidView() const { return pyramid_view_; }
     /// Invalidate the pyramid ({}), or set the view of a pyramid that the caller has written, at the same
     /// size.
     void setPyramidView(const shared::OcclusionView& view) { pyramid_view_ = view; }
+    /// Take the pyramid of nextOcclusionSet(), which was made of this view, in place of pyramid().
+    void takeNextPyramid(const shared::OcclusionView& view)
+    {
+        pyramid_ = nextPyramid();
+        pyramid_view_ = view;
+    }
+
+    /// View of the depth that the last frame has left for the next one. level_count 0: none.
+    const shared::OcclusionView& depthView() const { return depth_view_; }
+    void setDepthView(const shared::OcclusionView& view) { depth_view_ = view; }
 
 private:
     // blocks of one resource each: few resources, and none of their memory is to spare
@@ -87,7 +102,9 @@ private:
     Status createImages(const Device& device, const FramePasses& passes);
     Status createFramebuffers(const Device& device, const FramePasses& passes);
     VkImageView attachmentView(FrameResource resource) const;
-    Status createPyramid(const Device& device);
+    Status createPyramids(const Device& device);
+    uint32_t pyramidCount() const { return options_.counts_missing ? 2 : 1; }
+    uint32_t nextPyramid() const { return options_.counts_missing ? 1 - pyramid_ : pyramid_; }
     Status createTileLists(const Device& device);
     Status createSets(const Device& device, const DrawLayouts& layouts, FrameWay way);
 
@@ -101,7 +118,8 @@ private:
     // texels in place of images that no frame reads: some drivers look at all descriptors of a set
     Image no_depth_, no_light_;
     std::vector<UniqueFramebuffer> framebuffers_; ///< [family]
-    Buffer pyramid_;
+    Buffer pyramids_[2];                          ///< the second with TargetOptions::counts_missing
+    uint32_t pyramid_ = 0;                        ///< that culling tests
     Buffer tile_materials_;
     Buffer tile_lists_;
     UniqueSampler texel_sampler_;
@@ -111,13 +129,14 @@ private:
     /// Views of a frame's occlusion tests, for each frame in flight.
     struct OcclusionViews
     {
-        Buffer views; ///< two OcclusionView; mapped
-        VkDescriptorSet set = VK_NULL_HANDLE;
+        Buffer views;                 ///< two OcclusionView; mapped
+        VkDescriptorSet sets[2] = {}; ///< [pyramid]
     };
     OcclusionViews occlusion_[kMaxFramesInFlight];
     uint32_t current_ = 0;
     VkDescriptorSet tile_set_ = VK_NULL_HANDLE;
     shared::OcclusionView pyramid_view_{};
+    shared::OcclusionView depth_view_{};
     std::optional<GatherTargets> gather_; ///< with TargetOptions::gathers_light
 };
 

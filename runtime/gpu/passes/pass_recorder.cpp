@@ -79,8 +79,11 @@ void PassRecorder::end()
         device_.vk.vkCmdEndRenderPass(commands_);
     }
     if (open_ != nullptr)
+    {
         for (const LayoutChange& change : open_->handed_out)
             handOut(change);
+        wait(open_->vertex_barrier);
+    }
     open_ = nullptr;
 }
 
@@ -114,9 +117,14 @@ void PassRecorder::beginPass(size_t number)
     open_ = &plan_.description.passes[number];
     passes_begun_ = number + 1;
     subpass_ = 0;
-    for (const PassBarrier& wait : {open_->barrier, open_->fragment_barrier})
-        if (wait.from != 0)
-            barrier(device_, commands_, wait.from, wait.written, wait.to, wait.accessed);
+    wait(open_->barrier);
+    wait(open_->fragment_barrier);
+}
+
+void PassRecorder::wait(const PassBarrier& described) const
+{
+    if (described.from != 0)
+        barrier(device_, commands_, described.from, described.written, described.to, described.accessed);
 }
 
 void PassRecorder::beginRenderPass(VkRenderPass render_pass, VkFramebuffer framebuffer, VkExtent2D extent)

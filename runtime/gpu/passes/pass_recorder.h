@@ -41,6 +41,7 @@ private:
     size_t findNext(FrameStep step) const;
     void beginPass(size_t number);
     void beginRenderPass(VkRenderPass render_pass, VkFramebuffer framebuffer, VkExtent2D extent);
+    void wait(const PassBarrier& described) const;
     void nextSubpass();
     void handOut(const LayoutChange& change);
 

@@ -18,11 +18,11 @@ Result<PyramidPass> PyramidPass::create(const Device& device, const DrawLayouts&
     return pass;
 }
 
-void PyramidPass::record(const Device& device, VkCommandBuffer commands, const FrameTargets& targets) const
+void PyramidPass::record(const Device& device, VkCommandBuffer commands, const FrameTargets& targets,
+                         VkDescriptorSet set) const
 {
     const auto [width, height] = targets.extent();
     const shared::PyramidPush push{width, height};
-    const VkDescriptorSet set = targets.occlusionSet();
     const auto dispatch = [&](const ComputePipeline& pipeline, uint32_t x, uint32_t y)
     {
         device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline.get());

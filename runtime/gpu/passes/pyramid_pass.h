@@ -12,9 +12,10 @@ class PyramidPass
 public:
     static Result<PyramidPass> create(const Device& device, const DrawLayouts& layouts);
 
-    /// Record outside a render pass, after the early one. Results are visible to later compute shaders and
-    /// transfers.
-    void record(const Device& device, VkCommandBuffer commands, const FrameTargets& targets) const;
+    /// Record outside a render pass: fill the pyramid of an occlusion set of the targets with their depth.
+    /// Results are visible to later compute shaders and transfers.
+    void record(const Device& device, VkCommandBuffer commands, const FrameTargets& targets,
+                VkDescriptorSet set) const;
 
 private:
     ComputePipeline tiles_;

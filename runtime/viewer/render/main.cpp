@@ -94,7 +94,7 @@ void warnAboutMissing(uint64_t clusters, const std::string& name)
     if (clusters > 0)
         printError({Issue::degraded, name, "",
                     std::to_string(clusters) +
-                        " clusters come into view and are drawn a frame late (--cull last-frame)"});
+                        " clusters come into view and are drawn late (--cull last-frame)"});
 }
 
 /// Times that the first frame gathers indirect light; later frames have its result as their history.
@@ -306,7 +306,7 @@ private:
         return success();
     }
 
-    /// Count what the last frame left out because the frame before hid it.
+    /// Count what the last frame left out because an earlier one hid it.
     Status countMissing()
     {
         HEARTH_TRY(host_.run(

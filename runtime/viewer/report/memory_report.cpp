@@ -39,7 +39,7 @@ MemoryCounts countMemory(const gpu::Scene& scene, const gpu::FrameTargets& targe
         counts.attachments += image->bytes;
     counts.tile_attachments = targets.transientBytes();
     counts.attachments -= counts.tile_attachments;
-    counts.pyramid = targets.pyramid().size;
+    counts.pyramid = targets.pyramidBytes();
     counts.lists = targets.allocatedBytes() - counts.attachments - counts.pyramid;
     for (const gpu::Buffer& slice : scene.buffers.pool)
         counts.geometry += slice.size;

@@ -270,7 +270,7 @@ void Panel::buildCulling(ViewSettings& settings, const PanelData& facts)
         ImGui::SameLine();
     }
     ImGui::NewLine();
-    ImGui::Checkbox("Hide by the last frame's depth only", &settings.frame.occludes_by_last_frame);
+    ImGui::Checkbox("Hide by an earlier frame's depth only", &settings.frame.occludes_by_last_frame);
     const FrameStatistics& figures = facts.figures;
     showCount("clusters drawn", figures.counters.drawn_clusters);
     showCount("of these early", figures.counters.early_clusters);

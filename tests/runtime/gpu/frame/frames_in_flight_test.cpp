@@ -280,6 +280,19 @@ TEST_F(FramesInFlightTest, movingInstancesAndLightsWithShadows)
                });
 }
 
+TEST_F(FramesInFlightTest, occlusionByAnEarlierFrame)
+{
+    TestScene test;
+    const formats::PackView pack = buildRocks(test);
+    expectSame(pack, {},
+               [&](const gpu::Scene& scene, uint32_t number)
+               {
+                   gpu::FrameInput input = makeInput(scene, number);
+                   input.occludes_by_last_frame = true;
+                   return input;
+               });
+}
+
 TEST_F(FramesInFlightTest, manyShadowMapsInRounds)
 {
     // more maps than are culled side by side
@@ -364,11 +377,38 @@ TEST_F(FramesInFlightTest, bricksUnderALightThatChanges)
                });
 }
 
-TEST_F(FramesInFlightTest, geometryWaitsForNoShading)
+namespace
+{
+
+/// Frames whose stages are followed.
+struct SpiedFrames
+{
+    const char* name;
+    gpu::MaterialTest materials;
+    bool occludes_by_last_frame;
+    bool defers_pyramid; ///< the pyramid of the last frame is made behind the culling
+};
+
+class SpiedFramesTest : public FramesInFlightTest, public testing::WithParamInterface<SpiedFrames>
+{
+};
+
+INSTANTIATE_TEST_SUITE_P(, SpiedFramesTest,
+                         testing::Values(SpiedFrames{"TwoPhases", gpu::MaterialTest::depth, false, false},
+                                         SpiedFrames{"TwoPhasesById", gpu::MaterialTest::id, false, false},
+                                         SpiedFrames{"LastFrame", gpu::MaterialTest::depth, true, false},
+                                         SpiedFrames{"LastFrameById", gpu::MaterialTest::id, true, true}),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+} // namespace
+
+TEST_P(SpiedFramesTest, geometryWaitsForNoShading)
 {
     TestScene test;
     const formats::PackView pack = buildRocks(test);
-    auto created = gpu::Renderer::create(spyOnStages(host().description()));
+    const SpiedFrames& param = GetParam();
+    auto created = gpu::Renderer::create(spyOnStages(host().description()),
+                                         {.way = gpu::FrameWay::merged, .materials = param.materials});
     ASSERT_TRUE(created.ok());
     gpu::Renderer& spied = **created;
     const auto run = [&](const std::function<void(VkCommandBuffer)>& record)
@@ -397,15 +437,21 @@ TEST_F(FramesInFlightTest, geometryWaitsForNoShading)
     constexpr VkPipelineStageFlags kGeometry = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT |
                                                VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
                                                VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT;
+    const auto makeSpied = [&](uint32_t number)
+    {
+        gpu::FrameInput input = makeInput(*scene, number);
+        input.occludes_by_last_frame = param.occludes_by_last_frame;
+        return input;
+    };
     const auto countWaits = [&](bool planted)
     {
-        size_t waits = 0, geometry = 0;
+        size_t waits = 0, geometry = 0, pyramids = 0;
         run(
             [&](VkCommandBuffer commands)
             {
                 forgetCommands();
                 markFragments("shading");
-                spied.record(commands, *scene, *targets, makeInput(*scene, 0));
+                spied.record(commands, *scene, *targets, makeSpied(0));
                 markFragments("");
                 // the caller copies the image
                 addBarrier(VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT);
@@ -414,17 +460,24 @@ TEST_F(FramesInFlightTest, geometryWaitsForNoShading)
                 if (planted)
                     addBarrier(VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT);
                 const size_t first = spiedCommands().size();
-                spied.record(commands, *scene, *targets, makeInput(*scene, 1));
+                spied.record(commands, *scene, *targets, makeSpied(1));
                 for (size_t i = first; i < spiedCommands().size(); ++i)
                 {
                     const SpiedCommand& command = spiedCommands()[i];
                     if (command.label == "pyramid")
-                        break; // waits for this frame's own fragments
+                    {
+                        ++pyramids;
+                        if (!param.defers_pyramid)
+                            break; // waits for this frame's own fragments
+                        EXPECT_NE(command.waiting, 0u) << "waits for the last frame's";
+                        continue;
+                    }
                     geometry += (command.stages & kGeometry) != 0 ? 1 : 0;
                     waits += (command.waiting & kGeometry) != 0 ? 1 : 0;
                 }
             });
         EXPECT_GT(geometry, 20u);
+        EXPECT_GT(pyramids, 0u);
         return waits;
     };
     EXPECT_EQ(countWaits(false), 0u);
