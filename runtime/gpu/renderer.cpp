@@ -150,6 +150,7 @@ Result<std::unique_ptr<Scene>> Renderer::upload(const formats::PackView& pack, V
     {
         material.variant.bricks = scene->bricks != nullptr ? 1 : 0;
         material.variant.shadows = scene->shadows != nullptr ? 1 : 0;
+        material.variant.filters_shadows = scene->shadows != nullptr && scene->shadows->filters() ? 1 : 0;
         HEARTH_ASSIGN_OR_RETURN(material.pipelines, shading_.prepare(device_, layouts_, material.variant));
     }
     if (scene->dropped_lights > 0)

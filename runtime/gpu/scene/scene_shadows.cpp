@@ -11,11 +11,13 @@ namespace hearth::gpu
 namespace
 {
 
-/// Create a compare sampler: 1 where the reference is no deeper than the texel.
-Result<UniqueSampler> createCompareSampler(const Device& device)
+/// Create a compare sampler: 1 where the reference is no deeper than the texel, the mean of texels if it
+/// filters.
+Result<UniqueSampler> createCompareSampler(const Device& device, bool filters)
 {
     VkSamplerCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
+    info.magFilter = info.minFilter = filters ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
     info.addressModeU = info.addressModeV = info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     info.compareEnable = VK_TRUE;
     info.compareOp = VK_COMPARE_OP_GREATER_OR_EQUAL; // reversed depth
@@ -58,7 +60,7 @@ Result<std::unique_ptr<SceneShadows>> SceneShadows::create(const Device& device,
     s.layers_.resize(s.layerCount());
     for (uint32_t layer = 0; layer < s.layerCount(); ++layer)
         HEARTH_TRY(s.createLayer(device, render_pass, s.layers_[layer], layer));
-    HEARTH_ASSIGN_OR_RETURN(s.sampler_, createCompareSampler(device));
+    HEARTH_ASSIGN_OR_RETURN(s.sampler_, createCompareSampler(device, s.filters_));
     HEARTH_ASSIGN_OR_RETURN(
         s.casters_, s.arena_.createBuffer(s.layerCount() * sizeof(shared::FrameCounters),
                                           VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,

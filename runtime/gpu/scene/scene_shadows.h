@@ -60,6 +60,7 @@ public:
     const Buffer& casters() const { return casters_; }
     const Image& image() const { return image_; } ///< D32 in SHADER_READ_ONLY_OPTIMAL between frames
     VkSampler sampler() const { return sampler_.get(); }
+    bool filters() const { return filters_; } ///< compares may be bilinear
     VkFramebuffer framebuffer(uint32_t layer) const { return layers_[layer].framebuffer.get(); }
     VkDeviceSize allocatedBytes() const { return arena_.allocatedBytes(); }
 
@@ -70,7 +71,7 @@ private:
         UniqueFramebuffer framebuffer;
     };
     SceneShadows(const Device& device, const formats::PackView& pack, const ShadowOptions& options)
-        : options_(options), cache_(pack, options), arena_(device, 0)
+        : options_(options), filters_(device.filters_d32), cache_(pack, options), arena_(device, 0)
     {
     }
     Status createImage();
@@ -78,6 +79,7 @@ private:
     Status createLayer(const Device& device, VkRenderPass render_pass, Layer& layer, uint32_t number) const;
 
     ShadowOptions options_;
+    bool filters_;
     Box3 bounds_; ///< of the scene
     std::vector<ShadowCaster> projections_;
     size_t pack_sphere_count_ = 0;

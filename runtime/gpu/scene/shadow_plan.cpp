@@ -245,7 +245,7 @@ ShadowPlan planShadows(std::span<const ShadowCaster> casters, const ShadowOption
 {
     ShadowPlan plan;
     plan.block.error_bias = options.error_bias;
-    plan.block.layer_size = static_cast<float>(options.texels);
+    plan.block.texel_size = 1 / static_cast<float>(options.texels);
     for (size_t row = 0; row < casters.size();)
     {
         const size_t count = countRowsOfLight(casters.subspan(row));

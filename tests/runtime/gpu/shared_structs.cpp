@@ -135,7 +135,7 @@ std::vector<SharedStruct> frameStructs()
         HEARTH_STRUCT(ShadowLight, right, depth_scale, down, depth_offset, direction, perspective, origin,
                       depth_step, rounding, first_map, map_count, reserved),
         HEARTH_STRUCT(ShadowMap, scale_x, scale_y, offset_x, offset_y, size, kernel, density, layer),
-        HEARTH_STRUCT(ShadowBlock, lights, maps, error_bias, layer_size, reserved0, reserved1),
+        HEARTH_STRUCT(ShadowBlock, lights, maps, error_bias, texel_size, reserved0, reserved1),
         HEARTH_STRUCT(BrickGrid, origin, voxel_size, voxels_x, voxels_y, voxels_z, reserved),
         HEARTH_STRUCT(BrickView, grid, face_count, first_brick, slice_bricks, slice_faces, emission_box_count,
                       light_rays, reserved0, reserved1, emission_boxes),
