@@ -132,15 +132,7 @@ Result<std::unique_ptr<Scene>> Renderer::upload(const formats::PackView& pack, V
     if (scene->stream != nullptr)
         HEARTH_TRY(page_requests_.createSets(device_, *scene));
     if (options.shadows.max_maps > 0)
-    {
-        if (!shadows_)
-        {
-            HEARTH_ASSIGN_OR_RETURN(shadows_, ShadowPass::create(device_, layouts_));
-        }
-        if (scene->deformation != nullptr)
-            HEARTH_TRY(shadows_->prepareDeformed(device_));
-        HEARTH_TRY(shadows_->createMaps(device_, pack, options.shadows, commands, *scene));
-    }
+        HEARTH_TRY(createShadows(pack, options.shadows, commands, *scene));
     if (scene->bricks != nullptr && !gather_)
     {
         HEARTH_ASSIGN_OR_RETURN(brick_light_, BrickLightPass::create(device_, layouts_));
@@ -172,6 +164,20 @@ Status Renderer::prepareDeformed()
     if (overdraw_)
         HEARTH_TRY(overdraw_->prepareDeformed(device_));
     return visibility_.prepareDeformed(device_);
+}
+
+Status Renderer::createShadows(const formats::PackView& pack, const ShadowOptions& options,
+                               VkCommandBuffer commands, Scene& scene)
+{
+    const ShadowDepthChoice depth = SceneShadows::chooseDepth(pack, scene.bounds, options);
+    std::optional<ShadowPass>& pass = shadows_[static_cast<size_t>(depth.depth)];
+    if (!pass)
+    {
+        HEARTH_ASSIGN_OR_RETURN(pass, ShadowPass::create(device_, layouts_, depth.depth));
+    }
+    if (scene.deformation != nullptr)
+        HEARTH_TRY(pass->prepareDeformed(device_));
+    return pass->createMaps(device_, pack, options, depth, commands, scene);
 }
 
 Status Renderer::prepareOverdraw()
@@ -260,6 +266,7 @@ void Renderer::recordShadows(VkCommandBuffer commands, const Scene& scene, const
 {
     const DebugLabel label(device_, commands, "shadows");
     const std::span<const ShadowCache::LayerUpdate> stale = scene.shadows->planFrame(view, spheres);
+    const ShadowPass& pass = *shadows_[static_cast<size_t>(scene.shadows->depth().depth)];
     const SceneFrame& frame = scene.frame();
     const shared::ShadowBlock& block = scene.shadows->plan().block;
     std::memcpy(frame.shadow_block.mapped, &block, sizeof(block));
@@ -276,7 +283,7 @@ void Renderer::recordShadows(VkCommandBuffer commands, const Scene& scene, const
                          shared::kPhaseWhole);
         }
         for (size_t i = 0; i < maps.size(); ++i)
-            shadows_->recordMap(device_, commands, layouts_, scene, frame.casters[i], maps[i]);
+            pass.recordMap(device_, commands, layouts_, scene, frame.casters[i], maps[i]);
     }
 }
 

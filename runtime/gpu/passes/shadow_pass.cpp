@@ -23,11 +23,11 @@ constexpr VkSubpassDependency kDependencies[] = {
 };
 
 /// Create the render pass for one load operation; both are compatible with each other.
-Result<UniqueRenderPass> createRenderPass(const Device& device, VkAttachmentLoadOp load,
+Result<UniqueRenderPass> createRenderPass(const Device& device, VkFormat format, VkAttachmentLoadOp load,
                                           VkImageLayout initial_layout)
 {
     VkAttachmentDescription depth{};
-    depth.format = kShadowFormat;
+    depth.format = format;
     depth.samples = VK_SAMPLE_COUNT_1_BIT;
     depth.loadOp = load;
     depth.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
@@ -105,22 +105,24 @@ void recordCopy(const Device& device, VkCommandBuffer commands, const Image& ima
 
 } // namespace
 
-Result<ShadowPass> ShadowPass::create(const Device& device, const DrawLayouts& layouts)
+Result<ShadowPass> ShadowPass::create(const Device& device, const DrawLayouts& layouts, ShadowDepth depth)
 {
     ShadowPass pass;
-    HEARTH_ASSIGN_OR_RETURN(pass.clear_pass_,
-                            createRenderPass(device, VK_ATTACHMENT_LOAD_OP_CLEAR, VK_IMAGE_LAYOUT_UNDEFINED));
-    HEARTH_ASSIGN_OR_RETURN(pass.load_pass_, createRenderPass(device, VK_ATTACHMENT_LOAD_OP_LOAD,
+    const VkFormat format = shadowFormat(depth);
+    HEARTH_ASSIGN_OR_RETURN(pass.clear_pass_, createRenderPass(device, format, VK_ATTACHMENT_LOAD_OP_CLEAR,
+                                                               VK_IMAGE_LAYOUT_UNDEFINED));
+    HEARTH_ASSIGN_OR_RETURN(pass.load_pass_, createRenderPass(device, format, VK_ATTACHMENT_LOAD_OP_LOAD,
                                                               VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL));
     HEARTH_ASSIGN_OR_RETURN(pass.casters_, BinPass::createCasters(device, layouts, pass.clear_pass_.get()));
     return pass;
 }
 
 Status ShadowPass::createMaps(const Device& device, const formats::PackView& pack,
-                              const ShadowOptions& options, VkCommandBuffer commands, Scene& scene) const
+                              const ShadowOptions& options, const ShadowDepthChoice& depth,
+                              VkCommandBuffer commands, Scene& scene) const
 {
-    HEARTH_ASSIGN_OR_RETURN(scene.shadows,
-                            SceneShadows::create(device, clear_pass_.get(), pack, scene.bounds, options));
+    HEARTH_ASSIGN_OR_RETURN(
+        scene.shadows, SceneShadows::create(device, clear_pass_.get(), pack, scene.bounds, options, depth));
     const SceneShadows& shadows = *scene.shadows;
     if (scene.deformation != nullptr)
     {

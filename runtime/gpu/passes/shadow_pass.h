@@ -12,15 +12,17 @@ namespace hearth::gpu
 class ShadowPass
 {
 public:
-    static Result<ShadowPass> create(const Device& device, const DrawLayouts& layouts);
+    static Result<ShadowPass> create(const Device& device, const DrawLayouts& layouts, ShadowDepth depth);
 
     /// Create the pipelines for scenes with deformed meshes; call once.
     Status prepareDeformed(const Device& device) { return casters_.prepareDeformed(device); }
 
     /// Create the shadow maps of a scene and write them to its descriptor set. Records commands that make the
     /// layers sampleable. errors: same as SceneShadows::create.
+    ///
+    /// depth  that of the pass
     Status createMaps(const Device& device, const formats::PackView& pack, const ShadowOptions& options,
-                      VkCommandBuffer commands, Scene& scene) const;
+                      const ShadowDepthChoice& depth, VkCommandBuffer commands, Scene& scene) const;
 
     /// Record a layer, after the culling pass has found its casters in a view. Outside a render pass. Results
     /// are visible to later fragment shaders and transfers. Clobbers the graphics state.

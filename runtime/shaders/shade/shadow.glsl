@@ -122,7 +122,7 @@ float filterShadow(ShadowLookup at, vec3 flat_normal, float error)
     // does the point's own texel show the surface in the light?
     ShadowLight light = shadows.lights[at.row];
     vec2 gradient = shadowDepthGradient(light, map, at.from_light, flat_normal);
-    float rounding = kSnapMargin * (abs(gradient.x) + abs(gradient.y)) + light.rounding +
+    float rounding = kSnapMargin * (abs(gradient.x) + abs(gradient.y)) + light.rounding + light.depth_quantum +
                      shadowSnapDepth(light, map, at.from_light);
     SurfaceDepth surface = SurfaceDepth(shadowTexel(map, at.point), depth, gradient, rounding);
     float beyond_depth = shadowDepthBeyond(light, map, at.from_light, depth, flat_normal, error);

@@ -133,7 +133,7 @@ std::vector<SharedStruct> frameStructs()
         HEARTH_STRUCT(Lighting, sky_zenith, light_count, sky_horizon, exposure, sky_ground, surroundings_row,
                       lights),
         HEARTH_STRUCT(ShadowLight, right, depth_scale, down, depth_offset, direction, perspective, origin,
-                      depth_step, rounding, first_map, map_count, reserved),
+                      depth_step, rounding, first_map, map_count, depth_quantum),
         HEARTH_STRUCT(ShadowMap, scale_x, scale_y, offset_x, offset_y, size, kernel, density, layer),
         HEARTH_STRUCT(ShadowBlock, lights, maps, error_bias, texel_size, reserved0, reserved1),
         HEARTH_STRUCT(BrickGrid, origin, voxel_size, voxels_x, voxels_y, voxels_z, reserved),
