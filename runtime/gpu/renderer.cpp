@@ -57,6 +57,9 @@ FrameConfiguration configure(const Scene& scene, const FrameTargets& targets, co
             .keeps_visibility = targets.options().keeps_visibility,
             .shows_overdraw = input.shading.debug_view == shared::kViewOverdraw,
             .has_shadows = scene.shadows != nullptr,
+            .shadow_bytes = scene.shadows == nullptr
+                                ? FrameConfiguration{}.shadow_bytes
+                                : static_cast<float>(depthBits(scene.shadows->depth().depth)) / 8,
             .lights_bricks = scene.bricks != nullptr};
 }
 

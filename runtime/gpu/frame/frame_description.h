@@ -42,7 +42,7 @@ struct ResourceFacts
 {
     const char* name;
     ResourceKind kind;
-    float bytes_per_pixel; ///< of the frame; of a shadow map, of its texel
+    float bytes_per_pixel; ///< of the frame; of a shadow map, of its texel with 32-bit depths
 };
 const ResourceFacts& resourceFacts(FrameResource resource);
 
@@ -114,6 +114,7 @@ struct AttachmentUse
     LoadOperation load = LoadOperation::none;
     bool store = false;
     const char* reader = nullptr; ///< step that needs what is stored, or kCaller; null if it is not stored
+    float bytes_per_pixel = 0;    ///< of the frame; of a shadow map, of its texel
     VkImageLayout initial_layout = VK_IMAGE_LAYOUT_UNDEFINED;
     VkImageLayout final_layout = VK_IMAGE_LAYOUT_UNDEFINED;
 };
@@ -233,6 +234,7 @@ struct FrameConfiguration
     bool shows_overdraw = false;
     // no influence on the passes from the early visibility on
     bool has_shadows = false;
+    float shadow_bytes = 4; ///< of a texel of a shadow map
     bool lights_bricks = false;
 };
 

@@ -301,8 +301,8 @@ Traffic measureTraffic(const Pass& pass)
     Traffic traffic;
     for (const AttachmentUse& use : pass.attachments)
     {
-        traffic.low += use.load == LoadOperation::load ? bytesPerPixel(use.resource) : 0;
-        traffic.low += use.store ? bytesPerPixel(use.resource) : 0;
+        traffic.low += use.load == LoadOperation::load ? double{use.bytes_per_pixel} : 0;
+        traffic.low += use.store ? double{use.bytes_per_pixel} : 0;
     }
     for (const ResourceUse& use : pass.uses)
     {

@@ -236,7 +236,11 @@ void setAttachments(const FrameConfiguration& c, std::span<Pass> passes, size_t 
         const VkImageLayout own = lastLayout(pass, resource);
         if (own == VK_IMAGE_LAYOUT_UNDEFINED)
             continue;
-        AttachmentUse attachment{.resource = resource, .final_layout = own};
+        AttachmentUse attachment{.resource = resource,
+                                 .bytes_per_pixel = resource == Resource::shadow_map
+                                                        ? c.shadow_bytes
+                                                        : resourceFacts(resource).bytes_per_pixel,
+                                 .final_layout = own};
         const ResourceUse* first = firstUse(pass, resource);
         const Pass* reader = findReader(passes, number, resource);
         // the layout of an image that was stored stands for its content

@@ -304,6 +304,16 @@ TEST(FramePasses, partsLeaveTheSameImageStatesOnEveryWay)
     }
 }
 
+TEST(FramePasses, storeTheBytesOfAShadowMapsDepths)
+{
+    for (const float bytes : {2.0f, 4.0f})
+    {
+        const FrameDescription frame = describeFrame({.has_shadows = true, .shadow_bytes = bytes});
+        EXPECT_DOUBLE_EQ(measureTraffic(*findPass(frame, FrameStep::shadow_maps)).low, double{bytes});
+        EXPECT_DOUBLE_EQ(measureTraffic(frame).low, measureTraffic(describeFrame({})).low);
+    }
+}
+
 TEST(FramePasses, sumToTheFrame)
 {
     for (const FrameConfiguration& c : everyConfiguration())
