@@ -241,10 +241,9 @@ HEARTH_FUNCTION float shadowOffsetShare(HEARTH_IN(ShadowLight) light, Float3 poi
 }
 
 /// Return the clip-space position of a vertex of a caster. It is deeper than the vertex by the rise of its
-/// surface within the filter (a tap lies at most kernel + 1/2 texels beside the point that is looked up), by a
-/// step of the map's depths (either neighbour of a depth may be stored), by its error and by the rounding of
-/// rasterisers. Moving it by the error along the normal instead would open
-/// cracks.
+/// surface within the filter (a tap lies at most kernel + 1/2 texels beside the point that is looked up), by
+/// a step of the map's depths (either neighbour of a depth may be stored), by its error and by the rounding
+/// of rasterisers. Moving it by the error along the normal instead would open cracks.
 ///
 /// nearest       as for shadowFacing, of the triangle
 /// error         metres, bounds the distance of the triangle to the source

@@ -169,6 +169,7 @@ Status Renderer::prepareDeformed()
     return visibility_.prepareDeformed(device_);
 }
 
+/// Create the shadow maps of a scene, and the pipelines that draw depths of their format.
 Status Renderer::createShadows(const formats::PackView& pack, const ShadowOptions& options,
                                VkCommandBuffer commands, Scene& scene)
 {

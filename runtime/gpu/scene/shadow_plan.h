@@ -122,7 +122,7 @@ struct ShadowPlan
 /// depth is off by up to another: a point counts as lit if it is nearer behind its caster, along the light,
 /// than two steps. Where level ground meets a wall, under a light of elevation e, those are points up to
 /// 2 cos(e) steps behind the wall, which is 2 cos(e) sin(e) <= 1 step across the light, in the map. So a
-/// shadow begins late by a step at most: by half a texel, by which taking the nearest texel moves edges anyway.
+/// shadow begins late by a step at most: by half a texel, by which taking the nearest texel moves edges, too.
 inline constexpr float kMaxDepthStepTexels = 0.5f;
 
 /// Format of the depths of a scene's maps.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "tests/runtime/gpu/depth_filtering.h"
+#include "tests/runtime/gpu/shadows/depth_filtering.h"
 
 #include "tests/runtime/gpu/replace_function.h"
 

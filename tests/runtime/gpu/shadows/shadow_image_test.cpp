@@ -2,7 +2,7 @@
 // angle and for any levels of the casters, and lights beyond the capacity are counted.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/reference/tracer/reference_renderer.h"
-#include "tests/runtime/gpu/depth_filtering.h"
+#include "tests/runtime/gpu/shadows/depth_filtering.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/shapes.h"
