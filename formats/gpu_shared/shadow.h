@@ -26,8 +26,8 @@ struct ShadowLight
     float depth_step;   ///< sun: depth that one metre along the light makes; else: nearest distance
     float rounding;     ///< depth by which casters are moved back, because depths are rounded
     uint first_map;
-    uint map_count; ///< sorted by descending density
-    float reserved;
+    uint map_count;      ///< sorted by descending density
+    float depth_quantum; ///< step of the depths that maps store; 0: floats, whose steps `rounding` covers
 };
 
 /// One map of a light: texel = coordinate * scale + offset.
@@ -61,7 +61,8 @@ struct ShadowBlock
     ShadowLight lights[kMaxShadowProjections];
     ShadowMap maps[kMaxShadowMaps];
     float error_bias; ///< as for makeCasterView
-    float layer_size; ///< texels of a layer each way; a map fills the first ones
+    /// 1 / texels of a layer each way, a power of two: products with it are exact. A map fills the first ones
+    float texel_size;
     uint reserved0;
     uint reserved1;
 };
@@ -193,7 +194,8 @@ HEARTH_FUNCTION Float2 shadowDepthGradient(HEARTH_IN(ShadowLight) light, HEARTH_
 
 /// Return a depth beyond the surface of a point in all texels of the filter, as casters are drawn there: by
 /// the offset of a caster (shadowCasterClip), by the rise of its surface within the filter, and by as much
-/// again for curvature and for other levels of the surface. A deeper texel shows what lies beyond its edge.
+/// again for curvature and for other levels of the surface; by a step of depth for the offset, and by one for
+/// its rounding. A deeper texel shows what lies beyond its edge.
 ///
 /// depth   of the point
 /// normal  unit, either side
@@ -205,7 +207,7 @@ HEARTH_FUNCTION float shadowDepthBeyond(HEARTH_IN(ShadowLight) light, HEARTH_IN(
     float rise = shadowSlope(light, map, normal, facing) * (map.kernel + 0.5f + kRasterMargin);
     float by_error =
         light.perspective != 0.0f ? depth * error / (facing + error) : light.depth_step * error / facing;
-    return max(depth - 3.0f * rise - 2.0f * by_error - light.rounding, 0.0f);
+    return max(depth - 3.0f * rise - 2.0f * by_error - light.rounding - 2.0f * light.depth_quantum, 0.0f);
 }
 
 /// Round a texel coordinate to the 1/256 that rasterisers work with.
@@ -240,8 +242,8 @@ HEARTH_FUNCTION float shadowOffsetShare(HEARTH_IN(ShadowLight) light, Float3 poi
 
 /// Return the clip-space position of a vertex of a caster. It is deeper than the vertex by the rise of its
 /// surface within the filter (a tap lies at most kernel + 1/2 texels beside the point that is looked up), by
-/// its error and by the rounding of rasterisers. Moving it by the error along the normal instead would open
-/// cracks.
+/// a step of the map's depths (either neighbour of a depth may be stored), by its error and by the rounding
+/// of rasterisers. Moving it by the error along the normal instead would open cracks.
 ///
 /// nearest       as for shadowFacing, of the triangle
 /// error         metres, bounds the distance of the triangle to the source
@@ -255,7 +257,9 @@ HEARTH_FUNCTION Float4 shadowCasterClip(HEARTH_IN(ShadowLight) light, HEARTH_IN(
     HEARTH_PRECISE float y = dot3(light.down, point) * map.scale_y;
     float facing = shadowFacing(light, point, normal, nearest);
     HEARTH_PRECISE float offset =
-        shadowSlope(light, map, normal, facing) * (map.kernel + 0.5f + kRasterMargin) * offset_share;
+        (shadowSlope(light, map, normal, facing) * (map.kernel + 0.5f + kRasterMargin) +
+         light.depth_quantum) *
+        offset_share;
     // depth on the plane that is farther by the error: in perspective all depths shrink by one factor
     HEARTH_PRECISE float farther = facing / (facing + error);
     HEARTH_PRECISE float moved =

@@ -18,7 +18,9 @@ HEARTH_CONSTANT uint kConstantSkyVisibility = 5; ///< 1: some of the meshes have
 HEARTH_CONSTANT uint kConstantLayers = 6;        ///< bits kLayer* (shading.h) of the material
 /// 1: shaders compare the numbers of materials; 0: the depth test does.
 HEARTH_CONSTANT uint kConstantComparesMaterial = 7;
-HEARTH_CONSTANT uint kConstantCount = 8;
+/// 1: compares with shadow maps may be bilinear; 0: the device filters no depths of their format.
+HEARTH_CONSTANT uint kConstantFiltersShadows = 8;
+HEARTH_CONSTANT uint kConstantCount = 9;
 
 /// Source of the vertices of deformed meshes.
 HEARTH_CONSTANT uint kDeformedNone = 0; ///< no deformed meshes: rigid scenes and bins pay nothing for them

@@ -237,7 +237,8 @@ HEARTH_API void hearth_read_done(hearth_page_read read, int ok);
 typedef struct hearth_shadow_options
 {
     uint32_t max_maps; /* per frame, up to 64. 0: no shadows, the other options are ignored */
-    /* width and height of a map, 4 bytes per texel: a power of two from 4 * (kernel + 1) to 8192 */
+    /* width and height of a map, 4 bytes per texel, 2 with 16-bit depths: a power of two from 4 * (kernel + 1)
+     * to 8192 */
     uint32_t texels;
     uint32_t kernel; /* filter radius in texels, up to 3: 1 is 3 x 3 */
     uint32_t splits; /* view-dependent maps (cascades) of each sun, up to 8 */
@@ -248,11 +249,14 @@ typedef struct hearth_shadow_options
     float split_blend;           /* 0: splits of equal length, 1: each longer by the same factor */
     /* near plane of spots and point lights in metres, above 0: nearer surfaces cast no shadow */
     float spot_near;
+    /* since 1.8: bits of the maps' depths, 32, or 16: half the memory where that does not show, else 32 bits
+     * (hearth_shadow_counters.depth_bits) */
+    uint32_t depth_bits;
 } hearth_shadow_options;
 
 #define HEARTH_SHADOW_OPTIONS_INIT                                                                           \
     {                                                                                                        \
-        0, 1024, 1, 4, 1, 2, 0.1f, 100, 0.8f, 0.05f                                                          \
+        0, 1024, 1, 4, 1, 2, 0.1f, 100, 0.8f, 0.05f, 32                                                      \
     }
 
 typedef struct hearth_scene_options
@@ -362,11 +366,12 @@ typedef struct hearth_shadow_counters
     uint32_t moved_maps;        /* maps in which the frame drew moving casters */
     uint32_t dropped_maps;      /* beyond max_maps */
     uint32_t unshadowed_lights; /* lights without a map */
+    uint32_t depth_bits; /* since 1.8: of the maps; 32 if a step of 16 bits would show in any of them */
 } hearth_shadow_counters;
 
 #define HEARTH_SHADOW_COUNTERS_INIT                                                                          \
     {                                                                                                        \
-        sizeof(hearth_shadow_counters), 0, 0, 0, 0, 0                                                        \
+        sizeof(hearth_shadow_counters), 0, 0, 0, 0, 0, 0                                                     \
     }
 
 /* errors: USAGE, also if the scene has no shadows. */

@@ -41,6 +41,8 @@ Status check(const hearth_shadow_options& options)
         return usage("shadows.split_blend is not from 0 to 1");
     if (!isLength(options.spot_near))
         return usage("shadows.spot_near is not above 0");
+    if (options.depth_bits != 16 && options.depth_bits != 32)
+        return usage("shadows.depth_bits is neither 16 nor 32");
     if (options.moving_layers > 1)
         return usage("shadows.moving_layers is neither 0 nor 1");
     return success();
@@ -61,7 +63,8 @@ Result<gpu::ShadowOptions> shadowOptions(const hearth_shadow_options& options)
         .splits = options.splits,
         .split_range = {.near = options.split_near, .far = options.split_far, .blend = options.split_blend},
         .moving_layers = options.moving_layers != 0,
-        .spot_near = options.spot_near};
+        .spot_near = options.spot_near,
+        .depth = options.depth_bits == 16 ? gpu::ShadowDepth::d16 : gpu::ShadowDepth::d32};
 }
 
 Status makeShadowSpheres(hearth_scene& scene, const hearth_frame& frame)
@@ -101,7 +104,8 @@ hearth_result hearth_scene_get_shadow_counters(const hearth_scene* scene, hearth
                                  .drawn_maps = last.drawn_maps,
                                  .moved_maps = last.moved_maps,
                                  .dropped_maps = last.dropped_maps,
-                                 .unshadowed_lights = last.unshadowed_lights};
+                                 .unshadowed_lights = last.unshadowed_lights,
+                                 .depth_bits = gpu::depthBits(scene->scene->shadows->depth().depth)};
                     return success();
                 });
 }

@@ -89,7 +89,8 @@ static_assert(sizeof(hearth_transform) == sizeof(Affine3d) && alignof(hearth_tra
 constexpr hearth_scene_options kSceneDefaults = HEARTH_SCENE_OPTIONS_INIT;
 static_assert(kSceneDefaults.max_visible_clusters == (1u << 22) && kSceneDefaults.max_loads == 32 &&
               kSceneDefaults.frames_in_flight == 3 &&
-              kSceneDefaults.skinning_bytes == gpu::DeformationOptions{}.scratch_bytes);
+              kSceneDefaults.skinning_bytes == gpu::DeformationOptions{}.scratch_bytes &&
+              kSceneDefaults.shadows.depth_bits == gpu::depthBits(gpu::ShadowOptions{}.depth));
 
 } // namespace
 

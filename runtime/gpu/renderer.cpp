@@ -57,6 +57,8 @@ FrameConfiguration configure(const Scene& scene, const FrameTargets& targets, co
             .keeps_visibility = targets.options().keeps_visibility,
             .shows_overdraw = input.shading.debug_view == shared::kViewOverdraw,
             .has_shadows = scene.shadows != nullptr,
+            .shadow_format = scene.shadows == nullptr ? FrameConfiguration{}.shadow_format
+                                                      : shadowFormat(scene.shadows->depth().depth),
             .lights_bricks = scene.bricks != nullptr};
 }
 
@@ -143,15 +145,7 @@ Result<std::unique_ptr<Scene>> Renderer::upload(const formats::PackView& pack, V
     if (scene->stream != nullptr)
         HEARTH_TRY(page_requests_.createSets(device_, *scene));
     if (options.shadows.max_maps > 0)
-    {
-        if (!shadows_)
-        {
-            HEARTH_ASSIGN_OR_RETURN(shadows_, ShadowPass::create(device_, layouts_, passes_.shadowMapPass()));
-        }
-        if (scene->deformation != nullptr)
-            HEARTH_TRY(shadows_->prepareDeformed(device_));
-        HEARTH_TRY(shadows_->createMaps(device_, pack, options.shadows, commands, *scene));
-    }
+        HEARTH_TRY(createShadows(pack, options.shadows, commands, *scene));
     if (scene->bricks != nullptr && !gather_)
     {
         HEARTH_ASSIGN_OR_RETURN(brick_light_, BrickLightPass::create(device_, layouts_));
@@ -161,6 +155,7 @@ Result<std::unique_ptr<Scene>> Renderer::upload(const formats::PackView& pack, V
     {
         material.variant.bricks = scene->bricks != nullptr ? 1 : 0;
         material.variant.shadows = scene->shadows != nullptr ? 1 : 0;
+        material.variant.filters_shadows = scene->shadows != nullptr && scene->shadows->filters() ? 1 : 0;
         HEARTH_ASSIGN_OR_RETURN(material.pipelines, shading_.prepare(device_, layouts_, material.variant));
     }
     if (layouts_.joinsSets())
@@ -186,6 +181,22 @@ Status Renderer::prepareDeformed()
     if (overdraw_)
         HEARTH_TRY(overdraw_->prepareDeformed(device_));
     return visibility_.prepareDeformed(device_);
+}
+
+/// Create the shadow maps of a scene, and the pipelines that draw depths of their format.
+Status Renderer::createShadows(const formats::PackView& pack, const ShadowOptions& options,
+                               VkCommandBuffer commands, Scene& scene)
+{
+    const ShadowDepthChoice depth = SceneShadows::chooseDepth(pack, scene.bounds, options);
+    std::optional<ShadowPass>& pass = shadows_[static_cast<size_t>(depth.depth)];
+    if (!pass)
+    {
+        const VkRenderPass map_pass = passes_.shadowMapPass(shadowFormat(depth.depth));
+        HEARTH_ASSIGN_OR_RETURN(pass, ShadowPass::create(device_, layouts_, map_pass));
+    }
+    if (scene.deformation != nullptr)
+        HEARTH_TRY(pass->prepareDeformed(device_));
+    return pass->createMaps(device_, pack, options, depth, commands, scene);
 }
 
 Status Renderer::prepareOverdraw()
@@ -290,6 +301,11 @@ void Renderer::recordPrefetch(VkCommandBuffer commands, const Scene& scene, Fram
     page_requests_.record(device_, commands, scene);
 }
 
+const ShadowPass& Renderer::shadowPass(const Scene& scene) const
+{
+    return *shadows_[static_cast<size_t>(scene.shadows->depth().depth)];
+}
+
 /// Draw the shadow maps that are stale: find the casters of as many as there are views, then draw these.
 void Renderer::recordShadows(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
                              const shared::FrameView& view, std::span<const ShadowSphere> spheres,
@@ -313,7 +329,7 @@ void Renderer::recordShadows(VkCommandBuffer commands, const Scene& scene, const
             cull_.record(device_, commands, scene, frame.casters[i], targets.occlusionSet(),
                          shared::kPhaseWhole);
         }
-        shadows_->recordCounters(device_, commands, scene, frame.casters, maps);
+        shadowPass(scene).recordCounters(device_, commands, scene, frame.casters, maps);
         for (size_t i = 0; i < maps.size(); ++i)
             recordShadowMap(commands, scene, frame.casters[i], maps[i], passes);
     }
@@ -326,12 +342,12 @@ void Renderer::recordShadowMap(VkCommandBuffer commands, const Scene& scene, con
     if (map.copy_from)
     {
         passes.begin(FrameStep::shadow_copy);
-        shadows_->recordCopy(device_, commands, scene, map);
+        shadowPass(scene).recordCopy(device_, commands, scene, map);
     }
     const auto side = static_cast<uint32_t>(scene.shadows->plan().block.maps[map.map].size);
     passes.begin(map.copy_from ? FrameStep::moving_shadow_map : FrameStep::shadow_map,
                  scene.shadows->framebuffer(map.layer), {side, side});
-    shadows_->recordMap(device_, commands, layouts_, scene, view, map);
+    shadowPass(scene).recordMap(device_, commands, layouts_, scene, view, map);
 }
 
 /// Update a share of the brick faces, if the frame shows their light.

@@ -137,7 +137,10 @@ public:
 private:
     Renderer() = default;
     Status prepareDeformed();
+    Status createShadows(const formats::PackView& pack, const ShadowOptions& options,
+                         VkCommandBuffer commands, Scene& scene);
     void recordSkinning(VkCommandBuffer commands, const Scene& scene, uint32_t phase) const;
+    const ShadowPass& shadowPass(const Scene& scene) const;
     void recordShadows(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
                        const shared::FrameView& view, std::span<const ShadowSphere> spheres,
                        PassRecorder& passes) const;
@@ -166,7 +169,7 @@ private:
     WordCopyPass copy_words_;
     PageRequestPass page_requests_;
     PyramidPass pyramid_;
-    std::optional<ShadowPass> shadows_;         ///< set once a scene has shadows
+    std::optional<ShadowPass> shadows_[2];      ///< by ShadowDepth; set once a scene has such shadows
     std::optional<BrickLightPass> brick_light_; ///< set once a scene has bricks
     std::optional<GatherPass> gather_;          ///< set once a scene has bricks
     std::optional<SkinningPass> skinning_;      ///< set once a scene has deformed meshes

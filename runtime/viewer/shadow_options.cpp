@@ -51,6 +51,12 @@ bool setBias(std::string_view text, float& bias)
     return true;
 }
 
+bool setDepth(std::string_view text, gpu::ShadowDepth& depth)
+{
+    depth = text == "16" ? gpu::ShadowDepth::d16 : gpu::ShadowDepth::d32;
+    return text == "16" || text == "32";
+}
+
 /// Parse "texels=2048"; false if the name or the value is invalid.
 bool setByName(std::string_view setting, ShadowSettings& settings)
 {
@@ -71,6 +77,8 @@ bool setByName(std::string_view setting, ShadowSettings& settings)
         return setCount(value, 0, 3, options.kernel);
     if (name == "splits")
         return setCount(value, 0, gpu::kMaxSplits, options.splits);
+    if (name == "depth")
+        return setDepth(value, options.depth);
     if (name == "bias")
         return setBias(value, options.error_bias);
     if (name == "near")
@@ -105,7 +113,8 @@ Status parseShadows(std::string_view text, ShadowSettings& settings)
         if (!setByName(setting, settings))
             return usage("--shadows", setting,
                          "is neither off nor on nor one of maps=1 to 64, texels=16 to 8192 by powers of two, "
-                         "kernel=0 to 3, bias=1 and more, splits=0 to 8, near=METRES, far=METRES");
+                         "kernel=0 to 3, depth=16 or 32, bias=1 and more, splits=0 to 8, near=METRES, "
+                         "far=METRES");
     const shared::SplitRange& range = settings.options.split_range;
     if (!settings.fit_near && !settings.fit_far && range.near >= range.far)
         return usage("--shadows", text, "has near beyond far");

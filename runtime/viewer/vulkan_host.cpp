@@ -427,8 +427,9 @@ Status VulkanHost::printMessages() const
 Result<std::vector<float>> VulkanHost::readDepth(const gpu::Device& device, const gpu::Image& image,
                                                  uint32_t layer)
 {
+    const bool is_float = image.format != VK_FORMAT_D16_UNORM;
     std::vector<float> depths(size_t{image.extent.width} * image.extent.height);
-    const size_t size = depths.size() * sizeof(float);
+    const size_t size = depths.size() * (is_float ? sizeof(float) : sizeof(uint16_t));
     gpu::MemoryArena arena(device, 0);
     HEARTH_ASSIGN_OR_RETURN(const gpu::Buffer copy, arena.createBuffer(size, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                                                        gpu::MemoryKind::readback));
@@ -459,7 +460,15 @@ Result<std::vector<float>> VulkanHost::readDepth(const gpu::Device& device, cons
             makeVisibleToHost(*vk_, commands);
             return success();
         }));
-    std::memcpy(depths.data(), copy.mapped, size);
+    if (is_float)
+        std::memcpy(depths.data(), copy.mapped, size);
+    else
+    {
+        std::vector<uint16_t> steps(depths.size());
+        std::memcpy(steps.data(), copy.mapped, size);
+        std::transform(steps.begin(), steps.end(), depths.begin(),
+                       [](uint16_t step) { return static_cast<float>(step) / 65535; });
+    }
     return depths;
 }
 

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace hearth::test
@@ -63,6 +64,14 @@ protected:
 
     static viewer::VulkanHost& host() { return *host_; }
     static gpu::Renderer& renderer() { return *renderer_; }
+
+    /// Draw on another device from now on, which gets the one before: exchange them back at the end.
+    static void exchangeDevice(std::unique_ptr<viewer::VulkanHost>& host,
+                               std::unique_ptr<gpu::Renderer>& renderer)
+    {
+        std::swap(host_, host);
+        std::swap(renderer_, renderer);
+    }
 
     std::unique_ptr<gpu::Scene> upload(const formats::PackView& pack, const gpu::SceneOptions& options = {});
     /// Draw with new targets: no data of an earlier frame.

@@ -48,7 +48,8 @@ struct ResourceFacts
 {
     const char* name;
     ResourceKind kind;
-    float bytes_per_pixel; ///< of the frame; of a shadow map, of its texel; 0: does not follow the image
+    /// Of the frame; of a shadow map with 32-bit depths, of its texel. 0: does not follow the image.
+    float bytes_per_pixel;
     /// Each frame in flight writes a part of its own, and waits for no earlier frame.
     bool has_parts = false;
 };
@@ -208,6 +209,7 @@ struct Pass
     PassBarrier vertex_barrier{};
     /// Number of the shadow map that the pass draws, or begins, in a layer of its own.
     std::optional<uint32_t> map{};
+    VkFormat map_format = VK_FORMAT_UNDEFINED; ///< of that map
     /// Images that the pass reads and the caller gets after it, visible to transfers.
     std::vector<LayoutChange> handed_out{};
 };
@@ -281,6 +283,7 @@ struct FrameConfiguration
     bool keeps_visibility = false; ///< the caller reads the visibility buffer after the frame
     bool shows_overdraw = false;
     bool has_shadows = false;
+    VkFormat shadow_format = VK_FORMAT_D32_SFLOAT; ///< of shadow maps, or VK_FORMAT_D16_UNORM
     bool lights_bricks = false;
     std::vector<MapContent> maps{}; ///< shadow maps that the frame draws, in order; the others are cached
     uint32_t maps_at_once = 8;      ///< maps whose casters are found before any of them is drawn

@@ -20,8 +20,10 @@ constexpr const char* kRules[] = {
 };
 static_assert(std::size(kRules) == static_cast<size_t>(LintRule::count));
 
-double bytesPerPixel(Resource resource)
+double bytesPerPixel(const Pass& pass, Resource resource)
 {
+    if (resource == Resource::shadow_map && pass.map_format == VK_FORMAT_D16_UNORM)
+        return 2;
     return double{resourceFacts(resource).bytes_per_pixel};
 }
 
@@ -61,9 +63,9 @@ double subpassTraffic(const Pass& pass)
                 const AttachmentUse* attachment = findAttachment(pass, use.resource);
                 // one store serves all that follows
                 if (!stored.contains(use.resource) && !(attachment != nullptr && attachment->store))
-                    bytes += bytesPerPixel(use.resource);
+                    bytes += bytesPerPixel(pass, use.resource);
                 stored.insert(use.resource);
-                bytes += bytesPerPixel(use.resource);
+                bytes += bytesPerPixel(pass, use.resource);
             }
         for (const ResourceUse& use : subpass.attachments)
             if (isWrite(use.access) && use.access != Access::depth_keep)
@@ -318,14 +320,14 @@ Traffic measureTraffic(const Pass& pass)
     Traffic traffic;
     for (const AttachmentUse& use : pass.attachments)
     {
-        traffic.low += use.load == LoadOperation::load ? bytesPerPixel(use.resource) : 0;
-        traffic.low += use.store ? bytesPerPixel(use.resource) : 0;
+        traffic.low += use.load == LoadOperation::load ? bytesPerPixel(pass, use.resource) : 0;
+        traffic.low += use.store ? bytesPerPixel(pass, use.resource) : 0;
     }
     for (const ResourceUse& use : pass.uses)
     {
         // a pass that adds to a resource reads it first
         const bool twice = isWrite(use.access) && use.content == Content::keep;
-        const double bytes = bytesPerPixel(use.resource) * double{use.share} * (twice ? 2 : 1);
+        const double bytes = bytesPerPixel(pass, use.resource) * double{use.share} * (twice ? 2 : 1);
         (isBuffer(use.resource) ? traffic.buffers : traffic.low) += bytes;
     }
     traffic.high = traffic.low + subpassTraffic(pass);

@@ -3,7 +3,6 @@
 
 #include "formats/gpu_shared/bindings.h"
 #include "runtime/gpu/frame/frame_plan.h"
-#include "runtime/gpu/scene/scene_shadows.h"
 
 #include <algorithm>
 
@@ -13,7 +12,7 @@ namespace hearth::gpu
 namespace
 {
 
-VkFormat attachmentFormat(FrameResource resource, MaterialTest materials)
+VkFormat attachmentFormat(const Pass& pass, FrameResource resource, MaterialTest materials)
 {
     switch (resource)
     {
@@ -22,7 +21,7 @@ VkFormat attachmentFormat(FrameResource resource, MaterialTest materials)
     case FrameResource::depth:
         return depthFormat(materials);
     case FrameResource::shadow_map:
-        return kShadowFormat;
+        return pass.map_format;
     default:
         HEARTH_ASSERT(resource == FrameResource::color);
         return kColorFormat;
@@ -58,7 +57,7 @@ std::vector<VkAttachmentDescription> makeAttachments(const Pass& pass, MaterialT
     for (const AttachmentUse& use : pass.attachments)
     {
         VkAttachmentDescription attachment{};
-        attachment.format = attachmentFormat(use.resource, materials);
+        attachment.format = attachmentFormat(pass, use.resource, materials);
         attachment.samples = VK_SAMPLE_COUNT_1_BIT;
         attachment.loadOp = toVulkan(use.load);
         attachment.storeOp = use.store ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_DONT_CARE;
@@ -179,7 +178,7 @@ Result<UniqueRenderPass> createRenderPass(const Device& device, const Pass& pass
 
 Result<PlannedPass> FramePasses::findOrCreate(const Device& device, const Pass& pass)
 {
-    Key key;
+    Key key{static_cast<uint32_t>(pass.map_format)};
     std::vector<FrameResource> attachments;
     for (const AttachmentUse& use : pass.attachments)
     {
@@ -213,12 +212,15 @@ Result<FramePasses> FramePasses::create(const Device& device, FrameWay way, Mate
     FramePasses passes;
     passes.way_ = way;
     passes.materials_ = materials;
-    std::vector<FrameConfiguration> configurations = allConfigurations(way, materials);
-    for (FrameConfiguration configuration : allConfigurations(way, materials))
-    {
-        addMapsOfAllKinds(configuration);
-        configurations.push_back(configuration);
-    }
+    const std::vector<FrameConfiguration> without_shadows = allConfigurations(way, materials);
+    std::vector<FrameConfiguration> configurations = without_shadows;
+    for (const VkFormat format : {VK_FORMAT_D32_SFLOAT, VK_FORMAT_D16_UNORM})
+        for (FrameConfiguration configuration : without_shadows)
+        {
+            addMapsOfAllKinds(configuration);
+            configuration.shadow_format = format;
+            configurations.push_back(configuration);
+        }
     for (FrameConfiguration& configuration : configurations)
         configuration.lights_bricks = true;
     for (FrameDescription& description : describeFrames(configurations))
@@ -233,23 +235,32 @@ Result<FramePasses> FramePasses::create(const Device& device, FrameWay way, Mate
             }
             plan.render_passes.push_back(planned);
         }
-        HEARTH_ASSERT(configurationIndex(plan.description.configuration) ==
-                      passes.plans_.size() % (configurations.size() / 2));
+        HEARTH_ASSERT(passes.planNumber(plan.description.configuration) == passes.plans_.size());
         passes.plans_.push_back(std::move(plan));
     }
     return passes;
 }
 
-const FramePlan& FramePasses::plan(const FrameConfiguration& configuration) const
+size_t FramePasses::planNumber(const FrameConfiguration& configuration) const
 {
-    const size_t without_shadows = plans_.size() / 2;
-    return plans_[(configuration.has_shadows ? without_shadows : 0) + configurationIndex(configuration)];
+    const size_t shadows = !configuration.has_shadows                            ? 0
+                           : configuration.shadow_format == VK_FORMAT_D32_SFLOAT ? 1
+                                                                                 : 2;
+    return shadows * allConfigurations(way_, materials_).size() + configurationIndex(configuration);
 }
 
-/// Any plan will do: passes of a family have the same subpasses.
-DrawPlace FramePasses::findPlace(FrameStep step) const
+const FramePlan& FramePasses::plan(const FrameConfiguration& configuration) const
 {
-    const FramePlan& plan = plans_.back();
+    return plans_[planNumber(configuration)];
+}
+
+VkRenderPass FramePasses::shadowMapPass(VkFormat format) const
+{
+    return findPlace(plan({.has_shadows = true, .shadow_format = format}), FrameStep::shadow_map).render_pass;
+}
+
+DrawPlace FramePasses::findPlace(const FramePlan& plan, FrameStep step)
+{
     for (size_t number = 0; number < plan.render_passes.size(); ++number)
     {
         const std::vector<Subpass>& subpasses = plan.description.passes[number].subpasses;

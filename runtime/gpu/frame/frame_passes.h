@@ -64,21 +64,24 @@ public:
     /// Families of the passes of the frame's size.
     std::span<const PassFamily> families() const { return families_; }
     /// Return the place of pipelines that draw into the visibility buffer.
-    DrawPlace visibilityPlace() const { return findPlace(FrameStep::visibility); }
+    DrawPlace visibilityPlace() const { return findPlace(plans_.front(), FrameStep::visibility); }
     /// Return the place of pipelines that draw into the shaded frame.
-    DrawPlace shadingPlace() const { return findPlace(FrameStep::shading); }
-    /// Return a render pass that draws a shadow map; all are compatible.
-    VkRenderPass shadowMapPass() const { return findPlace(FrameStep::shadow_map).render_pass; }
+    DrawPlace shadingPlace() const { return findPlace(plans_.front(), FrameStep::shading); }
+    /// Return a render pass that draws a shadow map of a format; all of it are compatible.
+    VkRenderPass shadowMapPass(VkFormat format) const;
 
 private:
-    /// Load and store operations and layouts of the attachments.
+    /// Format of a shadow map; load and store operations and layouts of the attachments.
     using Key = std::vector<uint32_t>;
     Result<PlannedPass> findOrCreate(const Device& device, const Pass& pass);
-    DrawPlace findPlace(FrameStep step) const;
+    size_t planNumber(const FrameConfiguration& configuration) const;
+    /// Any plan will do: passes of a family have the same subpasses.
+    static DrawPlace findPlace(const FramePlan& plan, FrameStep step);
 
     FrameWay way_ = FrameWay::merged;
     MaterialTest materials_ = MaterialTest::depth;
-    std::vector<FramePlan> plans_; ///< configurationIndex, of scenes without shadows, then of others
+    std::vector<FramePlan>
+        plans_; ///< configurationIndex, without shadows, with 32-bit maps, with 16-bit maps
     std::vector<PassFamily> families_;
     struct CreatedPass
     {

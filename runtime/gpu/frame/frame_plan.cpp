@@ -224,7 +224,8 @@ std::vector<Pass> joinSteps(const FrameConfiguration& c, const std::vector<Step>
                   .steps = {step.step},
                   .uses = step.uses,
                   .host_write = step.host_write,
-                  .map = step.map};
+                  .map = step.map,
+                  .map_format = step.map ? c.shadow_format : VK_FORMAT_UNDEFINED};
         const bool has_subpasses = hasSubpasses(c.way);
         if (has_subpasses && drawsVisibility(step.step))
             pass.subpasses = {makeSubpass(step), makeEmptySubpass(shadingStep(c))};

@@ -4,6 +4,7 @@
 #include "runtime/gpu/passes/material_marks_pass.h"
 #include "runtime/gpu/passes/shading_binder.h"
 #include "runtime/gpu/passes/visibility_reading.h"
+#include "runtime/gpu/scene/scene_shadows.h"
 
 #include <algorithm>
 
@@ -77,6 +78,7 @@ DrawConstants ShadingPass::drawConstants(const ShadingVariant& variant, bool res
     constants[shared::kConstantUsedSlices] = resolves_only ? shared::kPoolSlices : variant.used_slices;
     constants[shared::kConstantDeformed] =
         variant.deformed != 0 ? shared::kDeformedPreSkinned : shared::kDeformedNone;
+    constants[shared::kConstantFiltersShadows] = variant.filters_shadows;
     if (resolves_only)
         return constants;
     constants[shared::kConstantTextures] = variant.textures;
@@ -117,7 +119,7 @@ Result<ShadingPass> ShadingPass::create(const Device& device, const DrawLayouts&
 Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLayouts& layouts,
                                               const ShadingVariant& variant)
 {
-    UniquePipeline& shadow_maps = shadow_map_views_[variant.deformed];
+    UniquePipeline& shadow_maps = shadow_map_views_[variant.deformed][variant.filters_shadows];
     if (variant.shadows != 0 && shadow_maps.get() == VK_NULL_HANDLE)
     {
         const DrawConstants constants = drawConstants(variant, true);
@@ -235,8 +237,9 @@ void ShadingPass::recordShadowMapView(const Device& device, VkCommandBuffer comm
     HEARTH_ASSERT(scene.shadows != nullptr);
     const shared::ShadingPush push = shadingPush(view, shared::kEverySurface);
     device.vk.vkCmdPushConstants(commands, layouts.shading.get(), kShadingPushStages, 0, sizeof(push), &push);
-    device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                                shadow_map_views_[showsDeformed(scene) ? 1 : 0].get());
+    device.vk.vkCmdBindPipeline(
+        commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
+        shadow_map_views_[showsDeformed(scene) ? 1 : 0][scene.shadows->filters() ? 1 : 0].get());
     device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
 }
 

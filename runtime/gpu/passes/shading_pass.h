@@ -100,9 +100,10 @@ private:
     DrawConstants view_constants_{}; ///< of pipelines that reconstruct no surface
     UniquePipeline sky_;
     UniquePipeline cluster_views_;
-    UniquePipeline shadow_map_views_[2]; ///< set once a scene has shadows: [1] for deformed meshes
-    UniquePipeline brick_views_;         ///< set once a scene has bricks
-    UniquePipeline gi_views_[2];         ///< as shadow_map_views_, once a scene has bricks
+    /// Set once a scene has shadows: [1] for deformed meshes, [][1] filters the maps.
+    UniquePipeline shadow_map_views_[2][2];
+    UniquePipeline brick_views_; ///< set once a scene has bricks
+    UniquePipeline gi_views_[2]; ///< set once a scene has bricks: [1] for deformed meshes
     std::map<ShadingVariant, Variant> variants_;
 };
 

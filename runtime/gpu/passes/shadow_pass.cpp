@@ -46,10 +46,11 @@ Result<ShadowPass> ShadowPass::create(const Device& device, const DrawLayouts& l
 }
 
 Status ShadowPass::createMaps(const Device& device, const formats::PackView& pack,
-                              const ShadowOptions& options, VkCommandBuffer commands, Scene& scene) const
+                              const ShadowOptions& options, const ShadowDepthChoice& depth,
+                              VkCommandBuffer commands, Scene& scene) const
 {
     HEARTH_ASSIGN_OR_RETURN(scene.shadows,
-                            SceneShadows::create(device, render_pass_, pack, scene.bounds, options));
+                            SceneShadows::create(device, render_pass_, pack, scene.bounds, options, depth));
     const SceneShadows& shadows = *scene.shadows;
     if (scene.deformation != nullptr)
     {

@@ -12,7 +12,7 @@ namespace hearth::gpu
 class ShadowPass
 {
 public:
-    /// render_pass  FramePasses::shadowMapPass
+    /// render_pass  FramePasses::shadowMapPass of the format
     static Result<ShadowPass> create(const Device& device, const DrawLayouts& layouts,
                                      VkRenderPass render_pass);
 
@@ -21,8 +21,10 @@ public:
 
     /// Create the shadow maps of a scene and write them to its descriptor set. Records commands that make the
     /// layers sampleable. errors: same as SceneShadows::create.
+    ///
+    /// depth  that of the pass
     Status createMaps(const Device& device, const formats::PackView& pack, const ShadowOptions& options,
-                      VkCommandBuffer commands, Scene& scene) const;
+                      const ShadowDepthChoice& depth, VkCommandBuffer commands, Scene& scene) const;
 
     /// Record, in FrameStep::shadow_cull, copies of the counters of maps, after their casters were found.
     ///

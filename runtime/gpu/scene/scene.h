@@ -76,11 +76,12 @@ struct ShadingVariant
     uint32_t textures = 0;                      ///< as shared::Material
     uint32_t uv_sets = 0;                       ///< as shared::Material
     uint32_t unlit = 0;
-    uint32_t layers = 0;         ///< bits shared::kLayer*
-    uint32_t deformed = 0;       ///< 1: used by deformed meshes
-    uint32_t shadows = 0;        ///< 1: lights have shadow maps
-    uint32_t sky_visibility = 0; ///< 1: used by meshes with sky visibility
-    uint32_t bricks = 0;         ///< 1: the scene has bricks
+    uint32_t layers = 0;          ///< bits shared::kLayer*
+    uint32_t deformed = 0;        ///< 1: used by deformed meshes
+    uint32_t shadows = 0;         ///< 1: lights have shadow maps
+    uint32_t filters_shadows = 0; ///< 1: the device filters their format
+    uint32_t sky_visibility = 0;  ///< 1: used by meshes with sky visibility
+    uint32_t bricks = 0;          ///< 1: the scene has bricks
     friend auto operator<=>(const ShadingVariant&, const ShadingVariant&) = default;
 };
 

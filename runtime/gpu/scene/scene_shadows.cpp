@@ -11,11 +11,13 @@ namespace hearth::gpu
 namespace
 {
 
-/// Create a compare sampler: 1 where the reference is no deeper than the texel.
-Result<UniqueSampler> createCompareSampler(const Device& device)
+/// Create a compare sampler: 1 where the reference is no deeper than the texel, the mean of texels if it
+/// filters.
+Result<UniqueSampler> createCompareSampler(const Device& device, bool filters)
 {
     VkSamplerCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
+    info.magFilter = info.minFilter = filters ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
     info.addressModeU = info.addressModeV = info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     info.compareEnable = VK_TRUE;
     info.compareOp = VK_COMPARE_OP_GREATER_OR_EQUAL; // reversed depth
@@ -39,14 +41,22 @@ Status checkLimits(const Device& device, const ShadowOptions& options)
 
 } // namespace
 
+ShadowDepthChoice SceneShadows::chooseDepth(const formats::PackView& pack, const Box3& bounds,
+                                            const ShadowOptions& options)
+{
+    return chooseShadowDepth(makeShadowCasters(makeLighting(pack), bounds, options.spot_near), options,
+                             bounds, readShadowSpheres(pack));
+}
+
 Result<std::unique_ptr<SceneShadows>> SceneShadows::create(const Device& device, VkRenderPass render_pass,
                                                            const formats::PackView& pack, const Box3& bounds,
-                                                           const ShadowOptions& options)
+                                                           const ShadowOptions& options,
+                                                           const ShadowDepthChoice& depth)
 {
     HEARTH_ASSERT(options.max_maps <= shared::kMaxShadowMaps && options.splits <= kMaxSplits &&
                   options.error_bias >= 1 && options.spot_near > 0);
     HEARTH_TRY(checkLimits(device, options));
-    std::unique_ptr<SceneShadows> shadows(new SceneShadows(device, pack, options));
+    std::unique_ptr<SceneShadows> shadows(new SceneShadows(device, pack, options, depth));
     SceneShadows& s = *shadows;
     s.bounds_ = bounds;
     const shared::Lighting lighting = makeLighting(pack);
@@ -58,7 +68,7 @@ Result<std::unique_ptr<SceneShadows>> SceneShadows::create(const Device& device,
     s.layers_.resize(s.layerCount());
     for (uint32_t layer = 0; layer < s.layerCount(); ++layer)
         HEARTH_TRY(s.createLayer(device, render_pass, s.layers_[layer], layer));
-    HEARTH_ASSIGN_OR_RETURN(s.sampler_, createCompareSampler(device));
+    HEARTH_ASSIGN_OR_RETURN(s.sampler_, createCompareSampler(device, s.filters_));
     HEARTH_ASSIGN_OR_RETURN(
         s.casters_, s.arena_.createBuffer(s.layerCount() * sizeof(shared::FrameCounters),
                                           VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
@@ -72,7 +82,7 @@ Status SceneShadows::createImage()
     constexpr VkImageUsageFlags kUsage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT |
                                          VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
                                          VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    HEARTH_ASSIGN_OR_RETURN(image_, arena_.createImage({.format = kShadowFormat,
+    HEARTH_ASSIGN_OR_RETURN(image_, arena_.createImage({.format = shadowFormat(depth_.depth),
                                                         .extent = {options_.texels, options_.texels},
                                                         .usage = kUsage,
                                                         .aspect = VK_IMAGE_ASPECT_DEPTH_BIT,
@@ -87,7 +97,7 @@ Status SceneShadows::createLayer(const Device& device, VkRenderPass render_pass,
     view_info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
     view_info.image = image_.handle.get();
     view_info.viewType = VK_IMAGE_VIEW_TYPE_2D;
-    view_info.format = kShadowFormat;
+    view_info.format = image_.format;
     view_info.subresourceRange = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, number, 1};
     VkImageView view;
     HEARTH_TRY_VK(device.vk.vkCreateImageView(device.handle, &view_info, device.allocator, &view),

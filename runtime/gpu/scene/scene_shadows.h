@@ -10,8 +10,11 @@
 namespace hearth::gpu
 {
 
-/// Format of the maps.
-inline constexpr VkFormat kShadowFormat = VK_FORMAT_D32_SFLOAT;
+/// Return the format of the maps. Vulkan requires both to be drawn to and sampled.
+constexpr VkFormat shadowFormat(ShadowDepth depth)
+{
+    return depth == ShadowDepth::d16 ? VK_FORMAT_D16_UNORM : VK_FORMAT_D32_SFLOAT;
+}
 
 /// Shadow statistics of the last frame.
 struct ShadowStatistics
@@ -27,12 +30,17 @@ struct ShadowStatistics
 class SceneShadows
 {
 public:
-    /// render_pass  of a ShadowPass
+    /// Choose the depths of a scene's maps.
+    static ShadowDepthChoice chooseDepth(const formats::PackView& pack, const Box3& bounds,
+                                         const ShadowOptions& options);
+
+    /// render_pass  of a ShadowPass of these depths
     /// pack         of the scene
     /// errors: device_limit, device_failed.
     static Result<std::unique_ptr<SceneShadows>> create(const Device& device, VkRenderPass render_pass,
                                                         const formats::PackView& pack, const Box3& bounds,
-                                                        const ShadowOptions& options);
+                                                        const ShadowOptions& options,
+                                                        const ShadowDepthChoice& depth);
 
     /// Pass the moves and the streamed groups of a frame, drawn or only prefetched, to the cache.
     void track(std::span<const InstanceMove> moves, std::span<const pack::ResidentGroups::Change> groups);
@@ -63,8 +71,10 @@ public:
     /// shared::FrameCounters per layer: the clusters drawn, and the clusters dropped for lack of slots in the
     /// visible list.
     const Buffer& casters() const { return casters_; }
-    const Image& image() const { return image_; } ///< D32 in SHADER_READ_ONLY_OPTIMAL between frames
+    const Image& image() const { return image_; } ///< in SHADER_READ_ONLY_OPTIMAL between frames
+    const ShadowDepthChoice& depth() const { return depth_; }
     VkSampler sampler() const { return sampler_.get(); }
+    bool filters() const { return filters_; } ///< compares may be bilinear
     VkFramebuffer framebuffer(uint32_t layer) const { return layers_[layer].framebuffer.get(); }
     VkDeviceSize allocatedBytes() const { return arena_.allocatedBytes(); }
 
@@ -74,15 +84,23 @@ private:
         UniqueImageView view;
         UniqueFramebuffer framebuffer;
     };
-    SceneShadows(const Device& device, const formats::PackView& pack, const ShadowOptions& options)
-        : options_(options), cache_(pack, options), arena_(device, 0)
+    SceneShadows(const Device& device, const formats::PackView& pack, const ShadowOptions& options,
+                 const ShadowDepthChoice& depth)
+        : options_(options),
+          depth_(depth),
+          filters_(depth.depth == ShadowDepth::d16 ? device.filters_d16 : device.filters_d32),
+          cache_(pack, options),
+          arena_(device, 0)
     {
+        options_.depth = depth.depth;
     }
     Status createImage();
     uint32_t layerCount() const { return options_.moving_layers ? 2 * options_.max_maps : options_.max_maps; }
     Status createLayer(const Device& device, VkRenderPass render_pass, Layer& layer, uint32_t number) const;
 
-    ShadowOptions options_;
+    ShadowOptions options_; ///< with the depth that was chosen
+    ShadowDepthChoice depth_;
+    bool filters_;
     Box3 bounds_; ///< of the scene
     std::vector<ShadowCaster> projections_;
     size_t pack_sphere_count_ = 0;

@@ -20,6 +20,23 @@ bool hasType(const shared::Light& light, formats::LightType type)
     return light.type == static_cast<uint32_t>(type);
 }
 
+/// Return the step between depths that are stored. Floats round by 2^-24 of a depth, which is within
+/// ShadowLight::rounding.
+constexpr float depthStep(ShadowDepth depth)
+{
+    return depth == ShadowDepth::d16 ? 1.0f / 65535 : 0.0f;
+}
+
+/// Return the largest distance along a light's axis at which it reaches anything.
+float reachAlongAxis(const ShadowCaster& caster, const Box3& scene)
+{
+    const Float3 axis = caster.projection.direction;
+    const Float3 farthest{axis.x > 0 ? scene.max.x : scene.min.x, axis.y > 0 ? scene.max.y : scene.min.y,
+                          axis.z > 0 ? scene.max.z : scene.min.z};
+    const float reach = std::max(dot(axis, farthest - caster.projection.origin), 0.0f);
+    return caster.range > 0 ? std::min(reach, caster.range) : reach;
+}
+
 /// Assigns the layers of a frame, row by row.
 class ShadowPlanner
 {
@@ -34,6 +51,7 @@ public:
         shared::ShadowLight& projection = plan_.block.lights[row];
         projection = caster.projection;
         projection.first_map = plan_.map_count;
+        projection.depth_quantum = depthStep(options_.depth);
         plan_.range_m[row] = caster.range;
     }
 
@@ -240,12 +258,42 @@ uint32_t countShadowMaps(const shared::Lighting& lighting, uint32_t splits, size
     return static_cast<uint32_t>(std::min<size_t>(count, shared::kMaxShadowMaps));
 }
 
+ShadowDepthChoice chooseShadowDepth(std::span<const ShadowCaster> casters, const ShadowOptions& options,
+                                    const Box3& scene, std::span<const ShadowSphere> spheres)
+{
+    constexpr float kLensRad = 1.0472f;
+    ShadowDepthChoice choice{.depth = options.depth};
+    if (scene.empty() || options.depth == ShadowDepth::d32)
+        return choice;
+    const Float3 eye = scene.center();
+    const shared::FrameView view = shared::makeFrameView(
+        {.position = eye, .target = eye + Float3{0, 0, -1}, .y_fov_rad = kLensRad}, 1280, 720, 1, 0);
+    const ShadowPlan plan = planShadows(casters, options, view, spheres);
+    for (uint32_t i = 0; i < plan.map_count; ++i)
+    {
+        const ShadowCaster& caster = casters[plan.row_of[i]];
+        const shared::ShadowLight& light = caster.projection;
+        // texels of a spot grow with the distance, steps with its square
+        const float distance = light.perspective != 0 ? reachAlongAxis(caster, scene) : 1;
+        const float texels =
+            depthStep(options.depth) * distance * plan.block.maps[i].density / light.depth_step;
+        if (choice.light == kInvalidIndex || texels > choice.step_texels)
+        {
+            choice.light = caster.light;
+            choice.step_texels = texels;
+        }
+    }
+    if (choice.step_texels > kMaxDepthStepTexels)
+        choice.depth = ShadowDepth::d32;
+    return choice;
+}
+
 ShadowPlan planShadows(std::span<const ShadowCaster> casters, const ShadowOptions& options,
                        const shared::FrameView& view, std::span<const ShadowSphere> spheres)
 {
     ShadowPlan plan;
     plan.block.error_bias = options.error_bias;
-    plan.block.layer_size = static_cast<float>(options.texels);
+    plan.block.texel_size = 1 / static_cast<float>(options.texels);
     for (size_t row = 0; row < casters.size();)
     {
         const size_t count = countRowsOfLight(casters.subspan(row));

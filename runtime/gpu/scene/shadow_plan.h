@@ -12,13 +12,25 @@
 namespace hearth::gpu
 {
 
+/// Format of the depths in shadow maps.
+enum class ShadowDepth : uint8_t
+{
+    d32, ///< floats
+    d16, ///< fixed point, in half the memory
+};
+constexpr uint32_t depthBits(ShadowDepth depth)
+{
+    return depth == ShadowDepth::d16 ? 16 : 32;
+}
+
 /// Shadow settings of a scene.
 struct ShadowOptions
 {
     /// Largest number of maps of a frame, up to shared::kMaxShadowMaps: layers of their image. 0: no shadows,
     /// and nothing is created or recorded for them.
     uint32_t max_maps = 0;
-    /// Width and height of a layer: 4 bytes per texel. A power of two up to 8192, >= 4 * (kernel + 1).
+    /// Width and height of a layer: 4 bytes per texel, 2 with 16-bit depths. A power of two up to 8192,
+    /// >= 4 * (kernel + 1).
     uint32_t texels = 1024;
     uint32_t kernel = 1; ///< filter radius in texels: 1 is 3 x 3
     /// BiasLODError, >= 1: the error of casters may be this many times the error of the frame.
@@ -35,6 +47,9 @@ struct ShadowOptions
     /// Near plane of spots and of the faces of point lights in metres, above 0: nearer surfaces cast no
     /// shadow.
     float spot_near = 0.05f;
+
+    /// d16: 16-bit depths where their steps do not show, else 32-bit depths (chooseShadowDepth).
+    ShadowDepth depth = ShadowDepth::d32;
 };
 
 inline constexpr uint32_t kMaxSplits = 8;
@@ -102,6 +117,33 @@ struct ShadowPlan
     std::array<float, shared::kMaxShadowProjections> range_m{}; ///< of each row; 0: unlimited
     uint32_t dropped_maps = 0;                                  ///< maps for which there was no layer
 };
+
+/// Largest step of 16-bit depths, in texels of the map. Casters are moved by a step of depth, and a stored
+/// depth is off by up to another: a point counts as lit if it is nearer behind its caster, along the light,
+/// than two steps. Where level ground meets a wall, under a light of elevation e, those are points up to
+/// 2 cos(e) steps behind the wall, which is 2 cos(e) sin(e) <= 1 step across the light, in the map. So a
+/// shadow begins late by a step at most: by half a texel, by which taking the nearest texel moves edges, too.
+inline constexpr float kMaxDepthStepTexels = 0.5f;
+
+/// Format of the depths of a scene's maps.
+struct ShadowDepthChoice
+{
+    ShadowDepth depth = ShadowDepth::d32;
+    /// Light with the largest step of 16-bit depths, index in the pack; kInvalidIndex: none was asked for.
+    uint32_t light = kInvalidIndex;
+    float step_texels = 0; ///< the step, in texels of the map
+};
+
+/// Choose the format of the depths: as the options say, but 32 bits if a step of 16 bits is larger than
+/// kMaxDepthStepTexels in any map. A step of a sun is 1 / 65535 of the scene's depth along its rays; one of a
+/// spot or point light is z^2 / (near * 65535) at a distance of z along the map's axis, up to the light's
+/// range or the end of the scene. Splits are taken as those of a lens of 60 degrees: those of narrower lenses
+/// and spheres of frames may have finer texels. There shadows begin later, but no surface shadows itself.
+///
+/// scene    world bounds
+/// spheres  of the pack
+ShadowDepthChoice chooseShadowDepth(std::span<const ShadowCaster> casters, const ShadowOptions& options,
+                                    const Box3& scene, std::span<const ShadowSphere> spheres);
 
 /// Plan the maps of a frame. Suns get the spheres and the splits, spots their whole cone and the spheres that
 /// intersect it, point lights all their faces, or none if there are too few layers, and the parts of spheres

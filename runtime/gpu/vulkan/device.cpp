@@ -9,14 +9,12 @@ namespace hearth::gpu
 namespace
 {
 
-/// True if textures of the format can be uploaded and filtered.
-bool canSample(const DeviceTable& vk, VkPhysicalDevice physical_device, VkFormat format)
+bool hasFeatures(const DeviceTable& vk, VkPhysicalDevice physical_device, VkFormat format,
+                 VkFormatFeatureFlags features)
 {
-    constexpr VkFormatFeatureFlags kFeatures =
-        VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT | VK_FORMAT_FEATURE_TRANSFER_DST_BIT;
     VkFormatProperties properties;
     vk.vkGetPhysicalDeviceFormatProperties(physical_device, format, &properties);
-    return (properties.optimalTilingFeatures & kFeatures) == kFeatures;
+    return (properties.optimalTilingFeatures & features) == features;
 }
 
 } // namespace
@@ -48,7 +46,13 @@ Result<Device> makeDevice(const DeviceDescription& description, std::span<const 
     device.memory_hooks = description.memory_hooks;
     device.message_hook = description.message_hook;
     device.sampler_anisotropy = description.sampler_anisotropy;
-    device.samples_unorm16 = canSample(device.vk, description.physical_device, VK_FORMAT_R16G16B16A16_UNORM);
+    const auto has = [&](VkFormat format, VkFormatFeatureFlags features)
+    { return hasFeatures(device.vk, description.physical_device, format, features); };
+    device.samples_unorm16 =
+        has(VK_FORMAT_R16G16B16A16_UNORM,
+            VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT | VK_FORMAT_FEATURE_TRANSFER_DST_BIT);
+    device.filters_d16 = has(VK_FORMAT_D16_UNORM, VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT);
+    device.filters_d32 = has(VK_FORMAT_D32_SFLOAT, VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT);
     return device;
 }
 

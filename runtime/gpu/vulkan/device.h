@@ -58,6 +58,9 @@ struct Device
     bool sampler_anisotropy = false;
     /// Textures may have R16G16B16A16_UNORM, which Vulkan does not require.
     bool samples_unorm16 = false;
+    /// Compares with depth images of these formats may be bilinear, which Vulkan does not require.
+    bool filters_d16 = false;
+    bool filters_d32 = false;
     DeviceIdentity identity{};
     VkPhysicalDeviceLimits limits{};
     VkPhysicalDeviceMemoryProperties memory{};

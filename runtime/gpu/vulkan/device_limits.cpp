@@ -53,6 +53,8 @@ constexpr RequiredFormat kFormats[] = {
      "shaded frame, textures"},
     {VK_FORMAT_D32_SFLOAT, kSampled | VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT, "D32_SFLOAT",
      "depth, shadow maps"},
+    {VK_FORMAT_D16_UNORM, kSampled | VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT, "D16_UNORM",
+     "shadow maps with 16-bit depths"},
     {VK_FORMAT_R8G8B8A8_UNORM, kFiltered, "R8G8B8A8_UNORM", "textures"},
     {VK_FORMAT_R8_UNORM, kFiltered, "R8_UNORM", "table of specular occlusion"},
     {VK_FORMAT_R16G16_SFLOAT, kFiltered, "R16G16_SFLOAT", "table of the sky"},

@@ -3,10 +3,13 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/record_values.h"
+#include "formats/gpu_shared/specialization.h"
 #include "runtime/shaders/scene/shadow_block.glsl"
 
 // compares: 1 where the point is no deeper than the texel; one mip, so derivatives do not matter
 layout(set = kSetScene, binding = kSceneShadowMaps) uniform sampler2DArrayShadow shadow_maps;
+
+layout(constant_id = kConstantFiltersShadows) const bool kFiltersShadows = false;
 
 // Point in the space of a light, and the densest of the light's shadow maps that contains it.
 struct ShadowLookup
@@ -39,10 +42,30 @@ ShadowLookup findShadowMap(Light light, vec3 position, vec3 flat_normal, float e
     return found;
 }
 
-// 1 where a depth is no deeper than a texel.
+// 1 where a depth is no deeper than a texel, at its centre. Between centres, and with kFiltersShadows, the
+// mean of the texels around, by their distances.
 float isLit(ShadowMap map, vec2 texel, float depth)
 {
-    return texture(shadow_maps, vec4(texel / shadows.layer_size, float(map.layer), depth));
+    return texture(shadow_maps, vec4(texel * shadows.texel_size, float(map.layer), depth));
+}
+
+// Number of the (2 kernel + 1)^2 texels in which a depth is lit. With kFiltersShadows (kernel + 1)^2 compares
+// find it: along each axis one in the middle of each pair of texels, whose mean counts twice, and one for the
+// last texel.
+float countLit(ShadowMap map, vec2 middle, float depth)
+{
+    int reach = int(map.kernel);
+    int pace = kFiltersShadows ? 2 : 1;
+    float lit = 0.0;
+    for (int y = -reach; y <= reach; y += pace)
+        for (int x = -reach; x <= reach; x += pace)
+        {
+            vec2 tap = vec2(x, y);
+            vec2 paired = kFiltersShadows ? vec2(lessThan(tap, vec2(map.kernel))) : vec2(0.0);
+            lit += (1.0 + paired.x) * (1.0 + paired.y) * isLit(map, middle + tap + 0.5 * paired, depth);
+        }
+    // devices may return means of few bits
+    return floor(lit + 0.5);
 }
 
 // Texels by which rasterisers with the usual 1/256 of a texel move an edge, and some more.
@@ -92,19 +115,14 @@ float filterShadow(ShadowLookup at, vec3 flat_normal, float error)
     vec2 middle = floor(shadowTexel(map, at.point)) + 0.5;
     // nothing casts beyond the far end of a sun's scene
     float depth = max(at.point.depth, 0.0);
-    int reach = int(map.kernel);
-    float lit = 0.0;
-    for (int y = -reach; y <= reach; ++y)
-        for (int x = -reach; x <= reach; ++x)
-            lit += isLit(map, middle + vec2(x, y), depth);
     float side = 2.0 * map.kernel + 1.0;
-    float share = lit / (side * side);
+    float share = countLit(map, middle, depth) / (side * side);
     if (share == 0.0 || share == 1.0)
         return share;
     // does the point's own texel show the surface in the light?
     ShadowLight light = shadows.lights[at.row];
     vec2 gradient = shadowDepthGradient(light, map, at.from_light, flat_normal);
-    float rounding = kSnapMargin * (abs(gradient.x) + abs(gradient.y)) + light.rounding +
+    float rounding = kSnapMargin * (abs(gradient.x) + abs(gradient.y)) + light.rounding + light.depth_quantum +
                      shadowSnapDepth(light, map, at.from_light);
     SurfaceDepth surface = SurfaceDepth(shadowTexel(map, at.point), depth, gradient, rounding);
     float beyond_depth = shadowDepthBeyond(light, map, at.from_light, depth, flat_normal, error);

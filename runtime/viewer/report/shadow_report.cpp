@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/report/shadow_report.h"
 
+#include <cstdio>
 #include <cstring>
 
 namespace hearth::viewer
@@ -8,6 +9,17 @@ namespace hearth::viewer
 
 namespace
 {
+
+/// Explain the choice of a scene that asked for 16-bit depths.
+std::string explainDepth(const gpu::ShadowDepthChoice& depth)
+{
+    char text[160];
+    std::snprintf(text, sizeof(text), "a step of 16 bits is %.3f texels in a map of light %u, %s %.3g",
+                  double{depth.step_texels}, depth.light,
+                  depth.depth == gpu::ShadowDepth::d16 ? "no more than" : "above",
+                  double{gpu::kMaxDepthStepTexels});
+    return text;
+}
 
 /// Format the members of a JSON object.
 std::string formatMembers(const ShadowCounts& counts)
@@ -22,6 +34,9 @@ std::string formatMembers(const ShadowCounts& counts)
     add("caster_clusters", counts.caster_clusters);
     add("dropped_clusters", counts.dropped_clusters);
     add("map_bytes", counts.map_bytes);
+    add("depth_bits", gpu::depthBits(counts.depth.depth));
+    if (counts.depth.light != kInvalidIndex)
+        text.append(",\"depth_reason\":\"").append(explainDepth(counts.depth)).append("\"");
     return text;
 }
 
@@ -32,7 +47,8 @@ Result<ShadowCounts> countShadows(VulkanHost& host, const gpu::Renderer& rendere
     const gpu::SceneShadows& shadows = *scene.shadows;
     HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes,
                             host.read(renderer.device(), shadows.casters()));
-    ShadowCounts counts{.maps = shadows.statistics(), .map_bytes = shadows.allocatedBytes()};
+    ShadowCounts counts{
+        .maps = shadows.statistics(), .map_bytes = shadows.allocatedBytes(), .depth = shadows.depth()};
     // nothing moves here, so no map has a second layer
     for (const shared::ShadowMap& map : std::span(shadows.plan().block.maps).first(counts.maps.maps))
     {

@@ -16,6 +16,7 @@ struct ShadowCounts
     uint64_t caster_clusters = 0;  ///< clusters of the maps in use, counted when each map was drawn
     uint64_t dropped_clusters = 0; ///< of these, clusters without a slot in the visible list
     uint64_t map_bytes = 0;
+    gpu::ShadowDepthChoice depth{};
 };
 
 /// Count for the last frame of a scene with shadows, which has completed. errors: device_failed.

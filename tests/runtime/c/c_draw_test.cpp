@@ -42,26 +42,32 @@ TEST_F(CApiTest, handsOnAllThatAFrameSays)
 
 TEST_F(CApiTest, castsTheShadowsOfTheRenderer)
 {
-    const hearth_shadow_sphere sphere{.center = {0, 0.5f, 0}, .radius = 1, .light = 0, .texels = 0};
-    hearth_frame frame = makeFrame();
-    frame.shadow_spheres = &sphere;
-    frame.shadow_sphere_count = 1;
-    hearth_scene_options c_options = HEARTH_SCENE_OPTIONS_INIT;
-    c_options.shadows.max_maps = 4;
-    c_options.shadows.texels = 256;
-    c_options.shadows.splits = 2;
-    c_options.shadows.split_far = 20;
-    shadows_ = {.max_maps = 4, .texels = 256, .splits = 2, .split_range = {.far = 20}};
-    const gpu::ShadowSphere cpp_sphere{.center = {0, 0.5f, 0}, .radius = 1, .light = 0};
-    DrawOptions options;
-    options.shadow_spheres = {&cpp_sphere, 1};
-    drawInC(makeFrame());
-    const std::vector<uint32_t> lit_color = color_;
-    for (const uint32_t debug_view : {HEARTH_VIEW_FINAL, HEARTH_VIEW_SHADOW_MAPS})
+    for (const uint32_t depth_bits : {32u, 16u})
     {
-        frame.debug_view = options.debug_view = debug_view;
-        expectEqual(drawInC(frame, c_options), drawInCpp(options));
-        EXPECT_NE(color_, lit_color);
+        SCOPED_TRACE(depth_bits);
+        const hearth_shadow_sphere sphere{.center = {0, 0.5f, 0}, .radius = 1, .light = 0, .texels = 0};
+        hearth_frame frame = makeFrame();
+        frame.shadow_spheres = &sphere;
+        frame.shadow_sphere_count = 1;
+        hearth_scene_options c_options = HEARTH_SCENE_OPTIONS_INIT;
+        c_options.shadows.max_maps = 4;
+        c_options.shadows.texels = 256;
+        c_options.shadows.splits = 2;
+        c_options.shadows.split_far = 20;
+        c_options.shadows.depth_bits = depth_bits;
+        shadows_ = {.max_maps = 4, .texels = 256, .splits = 2, .split_range = {.far = 20}};
+        shadows_.depth = depth_bits == 16 ? gpu::ShadowDepth::d16 : gpu::ShadowDepth::d32;
+        const gpu::ShadowSphere cpp_sphere{.center = {0, 0.5f, 0}, .radius = 1, .light = 0};
+        DrawOptions options;
+        options.shadow_spheres = {&cpp_sphere, 1};
+        drawInC(makeFrame());
+        const std::vector<uint32_t> lit_color = color_;
+        for (const uint32_t debug_view : {HEARTH_VIEW_FINAL, HEARTH_VIEW_SHADOW_MAPS})
+        {
+            frame.debug_view = options.debug_view = debug_view;
+            expectEqual(drawInC(frame, c_options), drawInCpp(options));
+            EXPECT_NE(color_, lit_color);
+        }
     }
 }
 

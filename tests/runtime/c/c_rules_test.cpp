@@ -319,6 +319,25 @@ TEST_F(CFrameRulesTest, aSceneWithoutABudgetDoesNotStream)
     EXPECT_EQ(c_caller_submit(caller_), VK_SUCCESS);
 }
 
+TEST_F(CFrameRulesTest, shadowCountersHaveTheBitsOfDepths)
+{
+    hearth_scene_options options = HEARTH_SCENE_OPTIONS_INIT;
+    options.shadows.max_maps = 4;
+    options.shadows.depth_bits = 16;
+    // with splits within 2 cm texels are finer than steps of 16 bits
+    for (const float split_far : {100.0f, 0.02f})
+    {
+        options.shadows.split_near = 0.01f;
+        options.shadows.split_far = split_far;
+        ASSERT_EQ(upload(options), HEARTH_OK) << hearth_last_error(renderer_);
+        hearth_shadow_counters counters = HEARTH_SHADOW_COUNTERS_INIT;
+        EXPECT_EQ(hearth_scene_get_shadow_counters(scene_, &counters), HEARTH_OK);
+        EXPECT_EQ(counters.depth_bits, split_far == 100 ? 16u : 32u);
+        EXPECT_EQ(hearth_scene_destroy(scene_), HEARTH_OK);
+        scene_ = nullptr;
+    }
+}
+
 TEST_F(CFrameRulesTest, framesOfAStreamedSceneComeInOrder)
 {
     Reader reader{.pack = pack_, .threads = {}};
@@ -374,6 +393,7 @@ TEST_F(CFrameRulesTest, sceneOptionsThatBreakRulesAreRefused)
     EXPECT_THAT(shadows([](S& s) { s.split_blend = 2; }), HasSubstr("shadows.split_blend"));
     EXPECT_THAT(shadows([](S& s) { s.spot_near = 0; }), HasSubstr("shadows.spot_near"));
     EXPECT_THAT(shadows([](S& s) { s.moving_layers = 2; }), HasSubstr("shadows.moving_layers"));
+    EXPECT_THAT(shadows([](S& s) { s.depth_bits = 24; }), HasSubstr("shadows.depth_bits"));
     EXPECT_EQ(scene_, nullptr);
     EXPECT_EQ(upload(streamedBy(reader, 16)), HEARTH_ERROR_STREAMING_BUDGET);
     EXPECT_THAT(hearth_last_error(renderer_), HasSubstr("[E4006] hint: raise the budget"));

@@ -156,6 +156,13 @@ float storedDepth(const Case& c, const Plane& plane, Float3 normal, double texel
     return clip.z / clip.w;
 }
 
+/// Return a depth as the map stores it: rounded up to a step, the worse of its neighbours.
+float roundDepth(const Case& c, float depth)
+{
+    const double step = double{c.light.depth_quantum};
+    return step == 0 ? depth : static_cast<float>(std::ceil(double{depth} / step) * step);
+}
+
 /// Count the filter taps around points of the plane that the plane itself shadows.
 size_t countAcne(const Case& c, const Plane& plane, Float3 normal, std::mt19937& random)
 {
@@ -171,13 +178,15 @@ size_t countAcne(const Case& c, const Plane& plane, Float3 normal, std::mt19937&
         const Float2 texel = shadowTexel(c.map, looked_up);
         for (int dy = -kernel; dy <= kernel; ++dy)
             for (int dx = -kernel; dx <= kernel; ++dx)
-                shadowed += looked_up.depth <
-                            storedDepth(c, plane, normal, double{texel.x} + dx, double{texel.y} + dy);
+                shadowed +=
+                    looked_up.depth <
+                    roundDepth(c, storedDepth(c, plane, normal, double{texel.x} + dx, double{texel.y} + dy));
     }
     return shadowed;
 }
 
-void expectNoAcne(Case (*makeCase)(std::mt19937&, ShadowMapSize))
+/// depth_quantum  as in ShadowLight
+void expectNoAcne(Case (*makeCase)(std::mt19937&, ShadowMapSize), float depth_quantum = 0)
 {
     std::mt19937 random(4);
     size_t without_offset = 0;
@@ -185,7 +194,8 @@ void expectNoAcne(Case (*makeCase)(std::mt19937&, ShadowMapSize))
         for (int degrees = 1; degrees <= 89; ++degrees)
             for (int run = 0; run < 4; ++run)
             {
-                const Case c = makeCase(random, {.texels = 1024, .kernel = kernel});
+                Case c = makeCase(random, {.texels = 1024, .kernel = kernel});
+                c.light.depth_quantum = depth_quantum;
                 const Float3 ray = rayTo(c);
                 const Float3 normal = tilted(ray, degrees * kDegree, random);
                 const Plane plane{widen(c.point), widen(normal)};
@@ -205,6 +215,12 @@ TEST(ShadowDepth, givesPlanesUnderASunNoAcne)
 TEST(ShadowDepth, givesPlanesUnderASpotNoAcne)
 {
     expectNoAcne(randomSpot);
+}
+
+TEST(ShadowDepth, givesPlanesNoAcneWith16Bits)
+{
+    expectNoAcne(randomSun, 1.0f / 65535);
+    expectNoAcne(randomSpot, 1.0f / 65535);
 }
 
 /// A wall on level ground with light across the wall from above. Returns how far behind the wall's foot a

@@ -46,7 +46,8 @@ std::map<std::string, uint32_t> constantIds()
             {"kDeformed", shared::kConstantDeformed},
             {"kSkyVisibility", shared::kConstantSkyVisibility},
             {"kLayers", shared::kConstantLayers},
-            {"kComparesMaterial", shared::kConstantComparesMaterial}};
+            {"kComparesMaterial", shared::kConstantComparesMaterial},
+            {"kFiltersShadows", shared::kConstantFiltersShadows}};
 }
 
 /// Not a GpuTest: that creates pipelines, and a driver may crash where a shader and a layout differ.

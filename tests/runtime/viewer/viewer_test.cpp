@@ -100,7 +100,7 @@ TEST(RenderOptions, everyOptionIsRead)
                                 "--budget",
                                 "3M",
                                 "--shadows",
-                                "texels=512,bias=3,splits=2,kernel=0,maps=7,far=20",
+                                "texels=512,bias=3,splits=2,kernel=0,maps=7,far=20,depth=16",
                                 "--shadow-sphere",
                                 "1,2,3,4",
                                 "--shadow-sphere=-1,0,0,0.5,6",
@@ -139,6 +139,7 @@ TEST(RenderOptions, everyOptionIsRead)
     EXPECT_EQ(shadows.kernel, 0u);
     EXPECT_EQ(shadows.max_maps, 7u);
     EXPECT_EQ(shadows.split_range.far, 20);
+    EXPECT_EQ(shadows.depth, gpu::ShadowDepth::d16);
     ASSERT_EQ(options->shadows.spheres.size(), 2u);
     EXPECT_EQ(options->shadows.spheres[0].center, (Float3{1, 2, 3}));
     EXPECT_EQ(options->shadows.spheres[0].light, gpu::ShadowSphere::kAllLights);
@@ -194,7 +195,7 @@ TEST(RenderOptions, mistakesAreNamed)
     expectUsage({"a.hearth", "-o", "a.png", "--samples", "2"}, "2");
     expectUsage({"a.hearth", "-o", "a.png", "--samples", "4", "--dump-visibility", "v"}, "--samples 1");
     for (const char* shadows : {"", "yes", "on,maps=4", "maps=0", "maps=65", "texels=1000", "kernel=4",
-                                "bias=0.5", "far=-1", "near=3,far=2", "size=5"})
+                                "bias=0.5", "depth=24", "far=-1", "near=3,far=2", "size=5"})
         expectUsage({"a.hearth", "-o", "a.png", "--shadows", shadows}, "--shadows");
     for (const char* sphere : {"", "1,2,3", "1,2,3,0", "1,2,3,4,x", "1,2,3,4,5,6"})
         expectUsage({"a.hearth", "-o", "a.png", "--shadow-sphere", sphere}, "--shadow-sphere");

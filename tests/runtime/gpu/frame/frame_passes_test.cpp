@@ -468,6 +468,20 @@ TEST(FramePasses, partsLeaveTheSameImageStatesOnEveryWay)
     }
 }
 
+TEST(FramePasses, storeTheBytesOfAShadowMapsDepths)
+{
+    for (const bool narrow : {false, true})
+    {
+        FrameConfiguration c{.shadow_format = narrow ? VK_FORMAT_D16_UNORM : VK_FORMAT_D32_SFLOAT};
+        addMapsOfAllKinds(c);
+        const FrameDescription frame = describeFrame(c);
+        const double bytes = narrow ? 2 : 4;
+        EXPECT_DOUBLE_EQ(measureTraffic(*findPass(frame, FrameStep::shadow_map)).low, bytes);
+        EXPECT_DOUBLE_EQ(measureTraffic(*findPass(frame, FrameStep::shadow_copy)).low, 2 * bytes);
+        EXPECT_DOUBLE_EQ(measureTraffic(frame).low, measureTraffic(describeFrame({})).low);
+    }
+}
+
 TEST(FramePasses, sumToTheFrame)
 {
     for (const FrameConfiguration& c : everyConfiguration())

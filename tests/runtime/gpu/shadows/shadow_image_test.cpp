@@ -2,11 +2,13 @@
 // angle and for any levels of the casters, and lights beyond the capacity are counted.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/reference/tracer/reference_renderer.h"
+#include "tests/runtime/gpu/shadows/depth_filtering.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/shapes.h"
 
 #include "runtime/gpu/scene/scene_shadows.h"
+#include "runtime/viewer/compare/flip.h"
 
 #include <cmath>
 #include <cstdlib>
@@ -51,10 +53,14 @@ protected:
         const auto scene = upload(pack, {.shadows = shadows});
         Image image = draw(*scene, camera, options);
         statistics_ = scene->shadows->statistics();
+        depth_ = scene->shadows->depth().depth;
+        map_bytes_ = scene->shadows->image().bytes;
         return image;
     }
 
     gpu::ShadowStatistics statistics_;
+    gpu::ShadowDepth depth_{};
+    VkDeviceSize map_bytes_ = 0;
 };
 
 reference::Image traced(const PackView& pack, bool shadows)
@@ -242,6 +248,48 @@ TEST_F(ShadowImageTest, aPointLightHasNoSeams)
             EXPECT_GT(countDifferent(lit, dark), lit.color.size() * 9 / 10);
         }
     }
+}
+
+/// Bilinear compares count the same texels as one compare for each texel: half weights are exact. lavapipe
+/// makes them without saying so, which the validation layer would report.
+TEST_F(ShadowImageTest, filteringOfTheDeviceShowsTheSame)
+{
+    auto created = viewer::VulkanHost::create({.device_name = "", .validate = false});
+    ASSERT_TRUE(created.ok());
+    std::unique_ptr<viewer::VulkanHost> host = std::move(*created);
+    std::unique_ptr<gpu::Renderer> renderers[2];
+    for (const bool filters : {false, true})
+    {
+        auto renderer = gpu::Renderer::create(sayDepthFiltering(host->description(), filters));
+        ASSERT_TRUE(renderer.ok());
+        EXPECT_EQ((*renderer)->device().filters_d16, filters);
+        EXPECT_EQ((*renderer)->device().filters_d32, filters);
+        renderers[filters ? 1 : 0] = std::move(*renderer);
+    }
+    const auto drawOn = [&](std::unique_ptr<gpu::Renderer>& renderer, const PackView& pack,
+                            const gpu::ShadowOptions& shadows, const DrawOptions& options)
+    {
+        exchangeDevice(host, renderer);
+        Image image = drawShadowed(pack, shadows, options);
+        exchangeDevice(host, renderer);
+        return image;
+    };
+    for (const LightRecord& record :
+         {sun({0.3f, -1, -0.4f}), light(LightType::point, {0.1f, 1.6f, 0.4f}, {0, -1, 0}, 30)})
+        for (const uint32_t kernel : {0u, 1u, 2u, 3u})
+            for (const uint32_t debug_view : {shared::kViewFinal, shared::kViewShadowMaps})
+            {
+                TestScene test;
+                const PackView pack = buildRocks(test, 12, record);
+                const gpu::ShadowOptions shadows{
+                    .max_maps = 6, .texels = 128, .kernel = kernel, .split_range = {.near = 2, .far = 12}};
+                DrawOptions options = kSource;
+                options.debug_view = debug_view;
+                const Image compared = drawOn(renderers[0], pack, shadows, options);
+                const Image filtered = drawOn(renderers[1], pack, shadows, options);
+                EXPECT_EQ(filtered.color, compared.color) << "kernel " << kernel;
+                keep(filtered, "filtered" + std::to_string(kernel));
+            }
 }
 
 TEST_F(ShadowImageTest, spheresMakeThemFinerWhereTheyAre)
@@ -470,16 +518,78 @@ TEST_F(ShadowImageTest, anOpenBoxIsDarkAlongItsClosedCorners)
     }
 }
 
+viewer::Image withoutAlpha(const Image& image)
+{
+    viewer::Image result(image.width, image.height);
+    for (size_t i = 0; i < image.color.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            result.rgb[3 * i + static_cast<size_t>(c)] = static_cast<uint8_t>(channel(image.color[i], c));
+    return result;
+}
+
+/// Depths of 16 bits take half the memory, and no one sees them where steps are small beside texels.
+TEST_F(ShadowImageTest, thoseOf16BitsShowTheSameFromHalfTheMemory)
+{
+    for (const LightRecord& record :
+         {sun({0.3f, -1, -0.4f}), light(LightType::spot, {-2, 4, 1}, {2, -4, -1}, 30),
+          light(LightType::point, {-0.3f, 0.9f, -0.4f}, {0, -1, 0}, 30)})
+    {
+        TestScene test;
+        const PackView pack = buildRocks(test, 12, record);
+        gpu::ShadowOptions options = kFour;
+        options.max_maps = 6;
+        options.spot_near = 0.2f;
+        const Image floats = drawShadowed(pack, options, kSource);
+        const VkDeviceSize float_bytes = map_bytes_;
+        options.depth = gpu::ShadowDepth::d16;
+        const Image fixed = drawShadowed(pack, options, kSource);
+        EXPECT_EQ(depth_, gpu::ShadowDepth::d16);
+        EXPECT_EQ(2 * map_bytes_, float_bytes);
+        keep(fixed, "d16");
+        expectTraced(compare(pack, fixed, 3));
+        const double shown = viewer::flip(withoutAlpha(floats), withoutAlpha(fixed)).mean();
+        const size_t different = countDifferent(floats, fixed);
+        std::printf("FLIP %.5f, %zu of %zu pixels differ\n", shown, different, fixed.color.size());
+        EXPECT_LE(shown, 0.002);
+        EXPECT_GT(different, 0u) << "the steps are there";
+    }
+}
+
+TEST_F(ShadowImageTest, thoseOf16BitsHave32InASceneThatIsTooDeep)
+{
+    TestScene test;
+    const uint32_t white = test.addMaterial(plainMaterial());
+    const uint32_t tile = test.addMesh(withMaterial(makeQuad(0.5f, 0.5f), white));
+    test.addInstance(test.addMesh(withMaterial(makeQuad(8, 8), white)), lying({0, 0, 0}));
+    test.addInstance(tile, lying({0, 0.3f, 0}));
+    test.addInstance(tile, lying({0, -3000, 0}));
+    test.addLight(sun({0.3f, -1, -0.4f}));
+    const PackView pack = test.build();
+    gpu::ShadowOptions options = kFour;
+    const Image floats = drawShadowed(pack, options, kSource);
+    options.depth = gpu::ShadowDepth::d16;
+    const Image asked = drawShadowed(pack, options, kSource);
+    EXPECT_EQ(depth_, gpu::ShadowDepth::d32);
+    EXPECT_EQ(asked.color, floats.color);
+}
+
 /// A plane without casters looks the same with and without shadows.
 TEST_F(ShadowImageTest, aPlaneIsFreeOfAcneAtAllAngles)
 {
-    for (const bool spot : {false, true})
+    for (const auto& [spot, depth] : {std::pair{false, gpu::ShadowDepth::d32},
+                                      {true, gpu::ShadowDepth::d32},
+                                      {false, gpu::ShadowDepth::d16},
+                                      {true, gpu::ShadowDepth::d16}})
         for (const uint32_t kernel : {0u, 1u, 2u})
             for (int degrees = 1; degrees <= 89; degrees += 11)
             {
                 TestScene test;
                 const uint32_t white = test.addMaterial(plainMaterial());
-                test.addInstance(test.addMesh(withMaterial(makeQuad(40, 40), white)), lying({0, 0, 0}));
+                const uint32_t plane = test.addMesh(withMaterial(makeQuad(40, 40), white));
+                test.addInstance(plane, lying({0, 0, 0}));
+                // so deep that a step of 16 bits is a third of a texel
+                if (depth == gpu::ShadowDepth::d16 && !spot)
+                    test.addInstance(plane, lying({0, -1000, 0}));
                 const double angle = degrees * kDegree;
                 const Float3 shine{static_cast<float>(0.8 * std::sin(angle)),
                                    static_cast<float>(-std::cos(angle)),
@@ -489,9 +599,12 @@ TEST_F(ShadowImageTest, aPlaneIsFreeOfAcneAtAllAngles)
                 gpu::ShadowOptions options = kFour;
                 options.texels = 128;
                 options.kernel = kernel;
+                options.depth = depth;
+                options.spot_near = depth == gpu::ShadowDepth::d16 ? 0.15f : options.spot_near;
                 const DrawOptions drawn{.width = 96, .height = 96, .error_pixels = 0};
                 const auto plain = upload(pack);
                 const Image shadowed = drawShadowed(pack, options, drawn);
+                EXPECT_EQ(depth_, depth) << degrees;
                 const Image lit = draw(*plain, roomCamera(), drawn);
                 size_t darker = 0;
                 for (size_t i = 0; i < lit.color.size(); ++i)

@@ -41,13 +41,15 @@ PackView buildScene(TestScene& test, uint32_t detail)
     return test.build();
 }
 
-gpu::ShadowOptions smallMaps(bool moving_layers)
+gpu::ShadowOptions smallMaps(bool moving_layers, gpu::ShadowDepth depth = gpu::ShadowDepth::d32)
 {
     return {.max_maps = 8,
             .texels = 64,
             .splits = 2,
             .split_range = {.near = 1, .far = 20},
-            .moving_layers = moving_layers};
+            .moving_layers = moving_layers,
+            .spot_near = 0.2f,
+            .depth = depth};
 }
 
 constexpr gpu::ShadowSphere kSphere{.center = {-3, 0.5f, 1}, .radius = 1.5f};
@@ -137,8 +139,11 @@ TEST_F(ShadowCacheTest, keptMapsAreFreshOnesWhileThingsMove)
     {
         TestScene test;
         const PackView pack = buildScene(test, 20);
-        const auto kept = upload(pack, {.shadows = smallMaps(moving_layers)});
-        const auto fresh = upload(pack, {.shadows = smallMaps(false)});
+        // layers of both formats are copied
+        const auto depth = moving_layers ? gpu::ShadowDepth::d16 : gpu::ShadowDepth::d32;
+        const auto kept = upload(pack, {.shadows = smallMaps(moving_layers, depth)});
+        const auto fresh = upload(pack, {.shadows = smallMaps(false, depth)});
+        EXPECT_EQ(kept->shadows->depth().depth, depth);
         Walk walk(1);
         uint32_t maps = 0, drawn = 0, moved = 0;
         for (int frame = 0; frame < 50; ++frame)

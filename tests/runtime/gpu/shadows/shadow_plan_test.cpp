@@ -186,6 +186,66 @@ TEST(ShadowPlan, countsTheMapsThatItWouldHave)
     EXPECT_EQ(gpu::countShadowMaps(lighting, 4, 100), shared::kMaxShadowMaps);
 }
 
+gpu::ShadowDepthChoice chooseDepth(const shared::Lighting& lighting, const gpu::ShadowOptions& options,
+                                   const Box3& scene = kScene, std::span<const ShadowSphere> spheres = {})
+{
+    return gpu::chooseShadowDepth(gpu::makeShadowCasters(lighting, scene, options.spot_near), options, scene,
+                                  spheres);
+}
+
+TEST(ShadowDepthChoice, has32BitsUnlessOptionsAskForLess)
+{
+    const auto lighting = makeLights({LightType::directional, LightType::spot});
+    const gpu::ShadowDepthChoice choice = chooseDepth(lighting, {.max_maps = 8});
+    EXPECT_EQ(choice.depth, gpu::ShadowDepth::d32);
+    EXPECT_EQ(choice.light, kInvalidIndex);
+    const gpu::ShadowPlan plan = makePlan(lighting, {.max_maps = 8});
+    EXPECT_EQ(plan.block.lights[0].depth_quantum, 0);
+}
+
+/// A sun straight above 5 m: a step is 5 m / 65535. The sphere's map has 1024 - 5 texels on 2 m.
+TEST(ShadowDepthChoice, ofASunHas16BitsWhereItsStepIsSmallBesideATexel)
+{
+    const auto lighting = makeLights({LightType::directional});
+    const gpu::ShadowOptions options{.max_maps = 8, .splits = 0, .depth = gpu::ShadowDepth::d16};
+    const ShadowSphere sphere{.center = {0, 1, 0}, .radius = 1};
+    const gpu::ShadowDepthChoice shallow = chooseDepth(lighting, options, kScene, {&sphere, 1});
+    EXPECT_EQ(shallow.depth, gpu::ShadowDepth::d16);
+    EXPECT_EQ(shallow.light, 0u);
+    EXPECT_NEAR(shallow.step_texels, 5.0f / 65535 / (2.0f / 1019), 0.001f);
+    const gpu::ShadowDepthChoice deep =
+        chooseDepth(lighting, options, {{-10, 0, -10}, {10, 100, 10}}, {&sphere, 1});
+    EXPECT_EQ(deep.depth, gpu::ShadowDepth::d32);
+    EXPECT_NEAR(deep.step_texels, 20 * shallow.step_texels, 0.01f);
+    const gpu::ShadowPlan plan = makePlan(lighting, options, {&sphere, 1});
+    EXPECT_EQ(plan.block.lights[0].depth_quantum, 1.0f / 65535);
+}
+
+/// Spots at 4 m that look down with 45 degrees to each side: a step is 16 m^2 / (near * 65535), a texel of
+/// the floor 8 m / 1019.
+TEST(ShadowDepthChoice, ofASpotHas16BitsWhereItsNearPlaneIsFarEnough)
+{
+    const auto lighting = makeLights({LightType::directional, LightType::spot});
+    gpu::ShadowOptions options{.max_maps = 8, .splits = 1, .depth = gpu::ShadowDepth::d16};
+    const gpu::ShadowDepthChoice near = chooseDepth(lighting, options);
+    EXPECT_EQ(near.depth, gpu::ShadowDepth::d32);
+    EXPECT_EQ(near.light, 1u) << "one spot decides for all";
+    EXPECT_NEAR(near.step_texels, 16 / (0.05f * 65535) / (8.0f / 1019), 0.01f);
+    options.spot_near = 0.1f;
+    const gpu::ShadowDepthChoice far = chooseDepth(lighting, options);
+    EXPECT_EQ(far.depth, gpu::ShadowDepth::d16);
+    EXPECT_NEAR(far.step_texels, near.step_texels / 2, 0.01f);
+}
+
+TEST(ShadowDepthChoice, ofALampCountsItsRange)
+{
+    auto lighting = makeLights({LightType::point});
+    const gpu::ShadowOptions options{.max_maps = 8, .depth = gpu::ShadowDepth::d16};
+    EXPECT_EQ(chooseDepth(lighting, options).depth, gpu::ShadowDepth::d32) << "10 m to the sides";
+    lighting.lights[0].range = 3;
+    EXPECT_EQ(chooseDepth(lighting, options).depth, gpu::ShadowDepth::d16);
+}
+
 TEST(ShadowPlan, countsWhatHasNoLayer)
 {
     const auto lighting = makeLights({LightType::spot, LightType::directional, LightType::spot});
