@@ -892,9 +892,9 @@ HEARTH_API hearth_result hearth_targets_get_part_info(const hearth_targets* targ
                                                       hearth_part_info* info);
 
 /* Describe the passes of a frame as JSON (1.8): what each loads, reads, writes and stores, bytes a pixel with
- * merged subpasses ("low") and without ("high"), and what tile-based GPUs punish. Each shadow map that is stale
- * by the camera is a pass, in bytes a texel; moves, poses, lights and shadow spheres of the frame do not count.
- * Records nothing. Writes at most `size` bytes with the terminating zero; `needed` gets the size of the whole
+ * merged subpasses ("low") and without ("high"), and what tile-based GPUs punish. Each shadow map that is
+ * stale by the camera is a pass, in bytes a texel; moves, poses, lights and shadow spheres of the frame do not
+ * count. Records nothing. Writes at most `size` bytes with the terminating zero; `needed` gets the size of the whole
  * text.
  * json  or NULL, with size 0. errors: USAGE. */
 HEARTH_API hearth_result hearth_describe_passes(const hearth_scene* scene, const hearth_targets* targets,

@@ -115,8 +115,9 @@ FrameDescription Renderer::describe(const Scene& scene, const FrameTargets& targ
     if (scene.shadows != nullptr)
     {
         configuration.maps_at_once = static_cast<uint32_t>(scene.frame().casters.size());
-        configuration.maps =
-            scene.shadows->findStale(scaledView(scene, input.view), input.shadow_spheres, input.moves);
+        for (const ShadowCache::LayerUpdate& map :
+             scene.shadows->findStale(scaledView(scene, input.view), input.shadow_spheres, input.moves))
+            configuration.maps.push_back(map.copy_from ? MapContent::moving : MapContent::fresh);
     }
     return describeFrame(configuration);
 }

@@ -49,8 +49,8 @@ struct DrawPlace
     uint32_t subpass;
 };
 
-/// Plans of all configurations, made before any frame is recorded. They have the light of bricks, and of scenes
-/// with shadows maps of all kinds: frames record those that they need.
+/// Plans of all configurations, made before any frame is recorded. They have the light of bricks, and for
+/// scenes with shadows maps of all kinds: a frame records what it needs of them.
 class FramePasses
 {
 public:

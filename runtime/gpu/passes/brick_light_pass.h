@@ -21,7 +21,8 @@ class BrickLightPass
 public:
     static Result<BrickLightPass> create(const Device& device, const DrawLayouts& layouts);
 
-    /// Record FrameStep::brick_light. Results are visible to later compute and fragment shaders and transfers.
+    /// Record FrameStep::brick_light. Results are visible to later compute and fragment shaders and
+    /// transfers.
     ///
     /// copies  of the frame
     /// lights_change  the lights of this frame differ from the last frame's

@@ -98,7 +98,7 @@ bool PassRecorder::sharesPass(FrameStep first, FrameStep second) const
     return pass != nullptr && pass == findPass(plan_.description, second);
 }
 
-/// Return the number of the next pass that has a step. After the last shadow map of the plan come more like it.
+/// Return the number of the next pass that has a step. After the plan's last shadow map come more like it.
 size_t PassRecorder::findNext(FrameStep step) const
 {
     const auto& passes = plan_.description.passes;

@@ -131,9 +131,9 @@ void SceneShadows::change(uint32_t light, const shared::Light& record)
         setShadowCasters(record, light, bounds_, options_.spot_near, projections_);
 }
 
-std::vector<MapContent> SceneShadows::findStale(const shared::FrameView& view,
-                                                std::span<const ShadowSphere> spheres,
-                                                std::span<const InstanceMove> moves) const
+std::vector<ShadowCache::LayerUpdate> SceneShadows::findStale(const shared::FrameView& view,
+                                                              std::span<const ShadowSphere> spheres,
+                                                              std::span<const InstanceMove> moves) const
 {
     std::vector<ShadowSphere> all(spheres_.begin(),
                                   spheres_.begin() + static_cast<std::ptrdiff_t>(pack_sphere_count_));
@@ -141,10 +141,8 @@ std::vector<MapContent> SceneShadows::findStale(const shared::FrameView& view,
     ShadowPlan plan = planShadows(projections_, options_, view, all);
     ShadowCache cache = cache_;
     cache.move(moves);
-    std::vector<MapContent> maps;
-    for (const ShadowCache::LayerUpdate& map : cache.plan(plan, view))
-        maps.push_back(map.copy_from ? MapContent::moving : MapContent::fresh);
-    return maps;
+    const std::span<const ShadowCache::LayerUpdate> stale = cache.plan(plan, view);
+    return {stale.begin(), stale.end()};
 }
 
 std::span<const ShadowCache::LayerUpdate> SceneShadows::planFrame(const shared::FrameView& view,

@@ -3,7 +3,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "runtime/gpu/frame/frame_description.h"
 #include "runtime/gpu/scene/scene.h"
 #include "runtime/gpu/scene/shadow_cache.h"
 
@@ -58,8 +57,9 @@ public:
                                                         std::span<const ShadowSphere> spheres);
 
     /// Return the maps that planFrame would return for a frame with these moves; changes nothing.
-    std::vector<MapContent> findStale(const shared::FrameView& view, std::span<const ShadowSphere> spheres,
-                                      std::span<const InstanceMove> moves) const;
+    std::vector<ShadowCache::LayerUpdate> findStale(const shared::FrameView& view,
+                                                    std::span<const ShadowSphere> spheres,
+                                                    std::span<const InstanceMove> moves) const;
 
     /// Plan of the last frame.
     const ShadowPlan& plan() const { return plan_; }

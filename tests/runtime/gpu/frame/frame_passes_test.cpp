@@ -77,7 +77,7 @@ private:
         Contents tile;
         for (const AttachmentUse& use : pass.attachments)
         {
-            const Name name = nameOf(use.resource);
+            const Name name = findName(use.resource);
             if (use.load == LoadOperation::load && memory_.contains(name))
                 tile[name] = memory_[name];
             if (use.load == LoadOperation::clear)
@@ -92,7 +92,7 @@ private:
             holds = runUse(use, memory_) && holds;
         for (const AttachmentUse& use : pass.attachments)
         {
-            const Name name = nameOf(use.resource);
+            const Name name = findName(use.resource);
             memory_.erase(name);
             if (use.store && tile.contains(name))
                 memory_[name] = tile[name];
@@ -107,7 +107,7 @@ private:
                            use.access == Access::vertex_read || use.access == Access::fragment_read ||
                            use.access == Access::compute_read ||
                            (attached && use.content != Content::overwrite);
-        const Name name = nameOf(use.resource);
+        const Name name = findName(use.resource);
         bool holds = true;
         if (reads && use.resource == FrameResource::shadow_map && !map_)
             holds = matchesAllMaps(contents); // shading
@@ -118,7 +118,7 @@ private:
         return holds;
     }
 
-    Name nameOf(FrameResource resource) const
+    Name findName(FrameResource resource) const
     {
         return {resource, resource == FrameResource::shadow_map ? map_.value_or(0) : 0};
     }

@@ -154,7 +154,13 @@ TEST_F(ShadowCacheTest, keptMapsAreFreshOnesWhileThingsMove)
             options.moves = moves;
             options.shadow_spheres = walk.spheres();
             fresh->shadows->forget();
+            const auto described =
+                kept->shadows->findStale(makeView(*kept, walk.camera(), options), walk.spheres(), moves);
             const Image kept_image = draw(*kept, walk.camera(), options);
+            const auto moving = std::count_if(described.begin(), described.end(),
+                                              [](const auto& map) { return map.copy_from.has_value(); });
+            ASSERT_EQ(getStatistics(*kept).moved_maps, static_cast<uint32_t>(moving)) << frame;
+            ASSERT_EQ(getStatistics(*kept).drawn_maps, described.size() - static_cast<size_t>(moving));
             const Image fresh_image = draw(*fresh, walk.camera(), options);
             ASSERT_NO_FATAL_FAILURE(expectSame(*kept, kept_image, *fresh, fresh_image, frame));
             maps += getStatistics(*kept).maps;
