@@ -48,7 +48,7 @@ struct ResourceFacts
 {
     const char* name;
     ResourceKind kind;
-    /// Of the frame; of a shadow map with 32-bit depths, of its texel. 0: does not follow the image.
+    /// The frame's; a texel's of a shadow map with 32-bit depths. 0: does not follow the image.
     float bytes_per_pixel;
     /// Each frame in flight writes a part of its own, and waits for no earlier frame.
     bool has_parts = false;
