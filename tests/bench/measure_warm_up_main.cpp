@@ -3,12 +3,14 @@
 // the second, since some drivers compile at the first draw. `./dev bench runtime` runs it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
+#include "formats/base/assert.h"
 #include "formats/base/program.h"
 #include "runtime/frame/frame.h"
 #include "runtime/gpu/renderer.h"
 #include "runtime/pack/pack.h"
 #include "runtime/viewer/frame_settings.h"
 #include "runtime/viewer/vulkan_host.h"
+#include "tests/runtime/gpu/replace_function.h"
 
 #include <chrono>
 #include <cstdio>
@@ -66,20 +68,13 @@ VKAPI_ATTR VkResult VKAPI_CALL createComputePipelines(VkDevice device, VkPipelin
     return result;
 }
 
-template <typename T>
-PFN_vkVoidFunction replace(PFN_vkVoidFunction function, T& real, T replacement)
-{
-    real = reinterpret_cast<T>(function);
-    return reinterpret_cast<PFN_vkVoidFunction>(replacement);
-}
-
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* name)
 {
     const PFN_vkVoidFunction function = meter.get_device_proc_addr(device, name);
     if (std::string_view(name) == "vkCreateGraphicsPipelines")
-        return replace(function, meter.create_graphics, createGraphicsPipelines);
+        return test::replaceFunction(function, meter.create_graphics, createGraphicsPipelines);
     if (std::string_view(name) == "vkCreateComputePipelines")
-        return replace(function, meter.create_compute, createComputePipelines);
+        return test::replaceFunction(function, meter.create_compute, createComputePipelines);
     return function;
 }
 
@@ -87,7 +82,7 @@ VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getInstanceProcAddr(VkInstance instance
 {
     const PFN_vkVoidFunction function = meter.get_instance_proc_addr(instance, name);
     if (std::string_view(name) == "vkGetDeviceProcAddr")
-        return replace(function, meter.get_device_proc_addr, getDeviceProcAddr);
+        return test::replaceFunction(function, meter.get_device_proc_addr, getDeviceProcAddr);
     return function;
 }
 
