@@ -23,10 +23,10 @@ void writeTimestamp(const Device& device, VkCommandBuffer commands, VkQueryPool 
         device.vk.vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, pool, which);
 }
 
-constexpr RequiredFormat kStencilFormat = {depthFormat(MaterialTest::id),
-                                           VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT |
-                                               VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT,
-                                           "D32_SFLOAT_S8_UINT", "depth with a stencil of materials"};
+constexpr RequiredFormat kStencilFormat = {
+    depthFormat(MaterialTest::id),
+    VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT | VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT,
+    "D32_SFLOAT_S8_UINT", "materials by id; by depth (--materials depth) they need no stencil"};
 
 OcclusionCulling occlusionCulling(const FrameInput& input)
 {
