@@ -61,7 +61,8 @@ struct ShadowBlock
     ShadowLight lights[kMaxShadowProjections];
     ShadowMap maps[kMaxShadowMaps];
     float error_bias; ///< as for makeCasterView
-    /// 1 / texels of a layer each way, a power of two: products with it are exact. A map fills the first ones
+    /// 1 / texels of a layer each way, a power of two: products with it are exact. A map fills the first
+    /// texels.
     float texel_size;
     uint reserved0;
     uint reserved1;

@@ -44,16 +44,22 @@ struct PipelineMeter
 };
 PipelineMeter meter;
 
+/// Create pipelines by a real function, and add them and their time.
+template <typename Function, typename... Arguments>
+VkResult createMeasured(Function create, uint32_t count, Arguments... arguments)
+{
+    VkResult result = VK_SUCCESS;
+    meter.milliseconds += measureMilliseconds([&] { result = create(arguments...); });
+    meter.count += count;
+    return result;
+}
+
 VKAPI_ATTR VkResult VKAPI_CALL createGraphicsPipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
                                                        const VkGraphicsPipelineCreateInfo* infos,
                                                        const VkAllocationCallbacks* allocator,
                                                        VkPipeline* pipelines)
 {
-    VkResult result = VK_SUCCESS;
-    meter.milliseconds += measureMilliseconds(
-        [&] { result = meter.create_graphics(device, cache, count, infos, allocator, pipelines); });
-    meter.count += count;
-    return result;
+    return createMeasured(meter.create_graphics, count, device, cache, count, infos, allocator, pipelines);
 }
 
 VKAPI_ATTR VkResult VKAPI_CALL createComputePipelines(VkDevice device, VkPipelineCache cache, uint32_t count,
@@ -61,11 +67,7 @@ VKAPI_ATTR VkResult VKAPI_CALL createComputePipelines(VkDevice device, VkPipelin
                                                       const VkAllocationCallbacks* allocator,
                                                       VkPipeline* pipelines)
 {
-    VkResult result = VK_SUCCESS;
-    meter.milliseconds += measureMilliseconds(
-        [&] { result = meter.create_compute(device, cache, count, infos, allocator, pipelines); });
-    meter.count += count;
-    return result;
+    return createMeasured(meter.create_compute, count, device, cache, count, infos, allocator, pipelines);
 }
 
 VKAPI_ATTR PFN_vkVoidFunction VKAPI_CALL getDeviceProcAddr(VkDevice device, const char* name)

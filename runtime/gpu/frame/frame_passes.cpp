@@ -241,12 +241,12 @@ Result<FramePasses> FramePasses::create(const Device& device, FrameWay way, Mate
     return passes;
 }
 
-size_t FramePasses::planNumber(const FrameConfiguration& configuration) const
+size_t FramePasses::planNumber(const FrameConfiguration& configuration)
 {
     const size_t shadows = !configuration.has_shadows                            ? 0
                            : configuration.shadow_format == VK_FORMAT_D32_SFLOAT ? 1
                                                                                  : 2;
-    return shadows * allConfigurations(way_, materials_).size() + configurationIndex(configuration);
+    return shadows * kConfigurationCount + configurationIndex(configuration);
 }
 
 const FramePlan& FramePasses::plan(const FrameConfiguration& configuration) const

@@ -74,14 +74,14 @@ private:
     /// Format of a shadow map; load and store operations and layouts of the attachments.
     using Key = std::vector<uint32_t>;
     Result<PlannedPass> findOrCreate(const Device& device, const Pass& pass);
-    size_t planNumber(const FrameConfiguration& configuration) const;
+    /// Number of a plan: configurationIndex without shadows, then with 32-bit maps, then with 16-bit maps.
+    static size_t planNumber(const FrameConfiguration& configuration);
     /// Any plan will do: passes of a family have the same subpasses.
     static DrawPlace findPlace(const FramePlan& plan, FrameStep step);
 
     FrameWay way_ = FrameWay::merged;
     MaterialTest materials_ = MaterialTest::depth;
-    std::vector<FramePlan>
-        plans_; ///< configurationIndex, without shadows, with 32-bit maps, with 16-bit maps
+    std::vector<FramePlan> plans_; ///< [planNumber]
     std::vector<PassFamily> families_;
     struct CreatedPass
     {

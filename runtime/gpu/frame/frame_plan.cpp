@@ -566,6 +566,7 @@ std::vector<FrameConfiguration> allConfigurations(FrameWay way, MaterialTest mat
                            .in_parts = (bits & 4) != 0,
                            .keeps_visibility = (bits & 8) != 0,
                            .shows_overdraw = (bits & 16) != 0});
+    HEARTH_ASSERT(all.size() == kConfigurationCount);
     return all;
 }
 

@@ -14,6 +14,9 @@ FrameDescription describeFrame(const FrameConfiguration& configuration);
 /// Describe frames that have the way and the material test of the first.
 std::vector<FrameDescription> describeFrames(std::span<const FrameConfiguration> configurations);
 
+/// Number of allConfigurations.
+inline constexpr uint32_t kConfigurationCount = 96;
+
 /// Return all configurations of a way with a material test; scenes have neither shadows nor bricks.
 std::vector<FrameConfiguration> allConfigurations(FrameWay way, MaterialTest materials);
 /// Position in the list of all configurations, whatever the scene has.

@@ -8,7 +8,8 @@
 namespace hearth::gpu
 {
 
-/// Refers to its arguments.
+/// Refers to its arguments. When it is made, joined sets get the attachments of the targets
+/// (JoinedSets::setAttachments).
 class ShadingBinder
 {
 public:

@@ -16,8 +16,7 @@ public:
     /// Allocate the descriptor sets of a scene, for those of its frames' copies that it needs.
     Status createSets(const Device& device, Scene& scene) const;
 
-    /// Record a list of copies. Outside a render pass; waits for nothing. Clobbers the compute
-    /// state.
+    /// Record a list of copies. Outside a render pass; waits for nothing. Clobbers the compute state.
     void record(const Device& device, VkCommandBuffer commands, VkDescriptorSet set,
                 const CopyRange& range) const;
 

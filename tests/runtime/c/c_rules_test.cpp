@@ -338,6 +338,36 @@ TEST_F(CFrameRulesTest, shadowCountersHaveTheBitsOfDepths)
     }
 }
 
+TEST_F(CFrameRulesTest, missingClustersAreCountedForTargetsThatAskForIt)
+{
+    const hearth_scene_options options = HEARTH_SCENE_OPTIONS_INIT;
+    ASSERT_EQ(upload(options), HEARTH_OK) << hearth_last_error(renderer_);
+    hearth_targets_description description = HEARTH_TARGETS_DESCRIPTION_INIT;
+    description.width = description.height = 16;
+    description.occlusion = HEARTH_OCCLUSION_LAST_FRAME;
+    description.flags = HEARTH_TARGETS_COUNT_MISSING;
+    hearth_targets* counting = nullptr;
+    ASSERT_EQ(hearth_targets_create(renderer_, &description, &counting), HEARTH_OK);
+    hearth_frame frame = makeFrame();
+    frame.occlusion = HEARTH_OCCLUSION_LAST_FRAME;
+    for (hearth_targets* targets : {targets_, counting})
+    {
+        const VkCommandBuffer commands = c_caller_begin(caller_);
+        EXPECT_EQ(hearth_record_missing(scene_, targets, commands), HEARTH_ERROR_USAGE);
+        EXPECT_THAT(hearth_last_error(renderer_), HasSubstr("no whole frame"));
+        EXPECT_EQ(hearth_record_frame(scene_, targets, commands, &frame), HEARTH_OK)
+            << hearth_last_error(renderer_);
+        const bool counts = targets == counting;
+        EXPECT_EQ(hearth_record_missing(scene_, targets, commands), counts ? HEARTH_OK : HEARTH_ERROR_USAGE);
+        if (!counts)
+        {
+            EXPECT_THAT(hearth_last_error(renderer_), HasSubstr("HEARTH_TARGETS_COUNT_MISSING"));
+        }
+        EXPECT_EQ(c_caller_submit(caller_), VK_SUCCESS);
+    }
+    EXPECT_EQ(hearth_targets_destroy(counting), HEARTH_OK);
+}
+
 TEST_F(CFrameRulesTest, framesOfAStreamedSceneComeInOrder)
 {
     Reader reader{.pack = pack_, .threads = {}};

@@ -354,6 +354,7 @@ TEST(FramePasses, furtherShadowMapsAreLikeThoseOfThePlan)
             const Pass& like = is_first ? *planned.front() : *planned.back();
             EXPECT_TRUE(same(pass.barrier, like.barrier)) << passName(pass);
             EXPECT_TRUE(same(pass.fragment_barrier, like.fragment_barrier)) << passName(pass);
+            EXPECT_TRUE(same(pass.vertex_barrier, like.vertex_barrier)) << passName(pass);
             ASSERT_EQ(pass.attachments.size(), like.attachments.size());
             for (size_t i = 0; i < pass.attachments.size(); ++i)
             {
