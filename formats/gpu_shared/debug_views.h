@@ -29,6 +29,9 @@ HEARTH_CONSTANT uint kViewSpecularOcclusion = 15; ///< from the eye, by the mate
 HEARTH_CONSTANT uint kViewBricks = 16;        ///< the voxels that a pixel's ray meets first, by albedo
 HEARTH_CONSTANT uint kViewBrickLighting = 17; ///< the same by outgoing radiance
 HEARTH_CONSTANT uint kViewGi = 18;            ///< global illumination alone, on white surfaces
+// lists of lights
+HEARTH_CONSTANT uint kViewLightCount = 19; ///< lights that a pixel evaluates, without those that all do
+HEARTH_CONSTANT uint kViewLightCells = 20; ///< cells of the light grid
 
 HEARTH_SHARED_END
 
@@ -83,7 +86,10 @@ struct DebugView
     VIEW(BRICKS, kViewBricks, "bricks", bricks, "packs with bricks")                                         \
     VIEW(BRICK_LIGHTING, kViewBrickLighting, "brick-lighting", bricks, "packs with bricks; red: unknown")    \
     VIEW(GI, kViewGi, "gi", gi, "packs with bricks: their light alone, on white")                            \
-    VIEW(SHADOW_MAPS, kViewShadowMaps, "shadow-maps", shadow_maps, "grey: none")
+    VIEW(SHADOW_MAPS, kViewShadowMaps, "shadow-maps", shadow_maps, "grey: none")                             \
+    VIEW(LIGHT_COUNT, kViewLightCount, "light-count", surface,                                               \
+         "blue: 1, green: 4, yellow: 8, red: 16, white: 32")                                                 \
+    VIEW(LIGHT_CELLS, kViewLightCells, "light-cells", surface, "")
 
 #define HEARTH_LIST_VIEW(c_name, number, name, shader, note)                                                 \
     DebugView{number, name, ViewShader::shader, note},

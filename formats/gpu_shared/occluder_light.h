@@ -22,7 +22,7 @@ struct OccluderLight
     Half4 blue;
 };
 
-/// Rows of 16 bytes behind the lights in their buffer: three for each radiance transfer, the OccluderLight
+/// Rows of 16 bytes in the buffer of lights: three for each radiance transfer, the OccluderLight
 /// under the frame's light, then one for each instance: the number of its transfer, and the four halves of
 /// its visibility (instance_visibility.h).
 HEARTH_CONSTANT uint kOccluderLightRows = 3;

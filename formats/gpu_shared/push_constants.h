@@ -89,6 +89,12 @@ struct TilesPush
     uint draw_count; ///< the sky and the materials of the scene
 };
 
+/// Lights of cells.
+struct LightCellsPush
+{
+    uint writes; ///< 0: counts the lights of each cell, 1: writes their indices
+};
+
 /// Visibility pass, overdraw view and shadow casters.
 struct BinPush
 {

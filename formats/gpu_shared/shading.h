@@ -1,10 +1,11 @@
-// Materials and lights as the shading pass reads them: uniform blocks (std140). One source for C++ and GLSL.
+// Materials and lights as the shading pass reads them: blocks in the layout std140. One source for C++ and GLSL.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_SHADING_H
 #define HEARTH_SHARED_SHADING_H
 
 #include "formats/gpu_shared/debug_views.h"
 #include "formats/gpu_shared/language.h"
+#include "formats/gpu_shared/light_grid.h"
 
 HEARTH_SHARED_BEGIN
 
@@ -89,9 +90,8 @@ struct Light
     uint passed3;
 };
 
-/// Maximum number of drawn lights; the renderer reports lights beyond. 12 KiB: they stay in the cache.
-HEARTH_CONSTANT uint kMaxLights = 128;
-
+/// Head of the buffer of lights. Behind it lie the lights, Light[capacity], rows of surroundings, and the lists
+/// of the frame: LightListCounts, numbers of the lights of the frame, cells and indices (light_grid.h).
 struct Lighting
 {
     Float3 sky_zenith; ///< radiance
@@ -99,8 +99,18 @@ struct Lighting
     Float3 sky_horizon;
     float exposure; ///< of emission; the intensities of lights have it already
     Float3 sky_ground;
-    uint surroundings_row; ///< row of the first instance (occluder_light.h), or kNoSurroundings
-    Light lights[kMaxLights];
+    uint
+        surroundings_row; ///< row of 16 bytes of the buffer: first instance (occluder_light.h), or kNoSurroundings
+    uint transfers_row;   ///< row of the first radiance transfer
+    uint first_list_word; ///< word of the buffer at which the lists of the frame begin
+    uint first_cell_word;
+    uint first_index_word;
+    uint index_words; ///< room for indices
+    uint reserved0;
+    uint reserved1;
+    uint reserved2;
+    LightGrid grid;
+    LightCascade cascades[12]; ///< kLightCascades
 };
 
 /// Default lighting of every scene beside its own lights: a sky of three colours (radiance), and one sun
@@ -141,7 +151,8 @@ HEARTH_SHARED_END
 static_assert(sizeof(hearth::shared::Material) == 224);
 static_assert(sizeof(hearth::shared::MaterialLayers) == 176);
 static_assert(sizeof(hearth::shared::Light) == 96);
-static_assert(sizeof(hearth::shared::Lighting) == 48 + 96 * hearth::shared::kMaxLights);
+static_assert(sizeof(hearth::shared::Lighting) == 80 + 112 + 12 * 64);
+static_assert(hearth::shared::kLightCascades == 12);
 #endif
 
 #endif

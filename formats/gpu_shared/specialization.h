@@ -20,7 +20,12 @@ HEARTH_CONSTANT uint kConstantLayers = 6;        ///< bits kLayer* (shading.h) o
 HEARTH_CONSTANT uint kConstantComparesMaterial = 7;
 /// 1: compares with shadow maps may be bilinear; 0: the device filters no depths of their format.
 HEARTH_CONSTANT uint kConstantFiltersShadows = 8;
-HEARTH_CONSTANT uint kConstantCount = 9;
+HEARTH_CONSTANT uint kConstantLightList = 9; ///< lights that a pixel evaluates, below
+HEARTH_CONSTANT uint kConstantCount = 10;
+
+/// Lights that a pixel evaluates, beside those that every point gets.
+HEARTH_CONSTANT uint kLightListFrame = 0; ///< all of the frame
+HEARTH_CONSTANT uint kLightListCells = 1; ///< those of its cell of the light grid
 
 /// Source of the vertices of deformed meshes.
 HEARTH_CONSTANT uint kDeformedNone = 0; ///< no deformed meshes: rigid scenes and bins pay nothing for them

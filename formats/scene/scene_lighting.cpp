@@ -81,19 +81,16 @@ float lightExposure(std::span<const formats::LightRecord> lights, const Box3& bo
     return illuminance > kKeyIlluminance ? kKeyIlluminance / illuminance : 1.0f;
 }
 
-Lighting sceneLighting(std::span<const formats::LightRecord> lights, const Box3& bounds)
+SceneLighting sceneLighting(std::span<const formats::LightRecord> lights, const Box3& bounds)
 {
-    Lighting lighting{};
-    lighting.sky_zenith = kSkyZenith;
-    lighting.sky_horizon = kSkyHorizon;
-    lighting.sky_ground = kSkyGround;
+    SceneLighting lighting{.sky = {kSkyZenith, kSkyHorizon, kSkyGround},
+                           .exposure = lightExposure(lights, bounds)};
     for (const formats::LightRecord& record : shadedLights(lights))
-        lighting.lights[lighting.light_count++] = lightFromRecord(record);
-    if (lighting.light_count == 0)
-        lighting.lights[lighting.light_count++] = defaultSun();
-    lighting.exposure = lightExposure(lights, bounds);
-    for (uint32_t i = 0; i < lighting.light_count; ++i)
-        lighting.lights[i].intensity = lighting.lights[i].intensity * lighting.exposure;
+        lighting.lights.push_back(lightFromRecord(record));
+    if (lighting.lights.empty())
+        lighting.lights.push_back(defaultSun());
+    for (Light& light : lighting.lights)
+        light.intensity = light.intensity * lighting.exposure;
     return lighting;
 }
 
@@ -111,9 +108,9 @@ void copyReflector(Light& light, const Light& other)
     light.passed3 = other.passed3;
 }
 
-void addReflectors(Lighting& lighting, std::span<const formats::ReflectorRecord> reflectors)
+void addReflectors(SceneLighting& lighting, std::span<const formats::ReflectorRecord> reflectors)
 {
-    for (size_t i = 0; i < std::min<size_t>(reflectors.size(), lighting.light_count); ++i)
+    for (size_t i = 0; i < std::min(reflectors.size(), lighting.lights.size()); ++i)
     {
         Light& light = lighting.lights[i];
         const formats::ReflectorRecord& reflector = reflectors[i];

@@ -3,14 +3,24 @@
 #pragma once
 
 #include "formats/gpu_shared/shading.h"
+#include "formats/gpu_shared/sky.h"
 #include "formats/records/bricks.h"
 #include "formats/records/mesh.h"
 #include "formats/records/scene.h"
 
 #include <span>
+#include <vector>
 
 namespace hearth::shared
 {
+
+/// Lights and sky of a scene. All light is exposed.
+struct SceneLighting
+{
+    Sky sky;
+    float exposure = 1; ///< of emission
+    std::vector<Light> lights;
+};
 
 /// Convert a light, before exposure, and without a shadow.
 Light lightFromRecord(const formats::LightRecord& record);
@@ -32,13 +42,13 @@ float lightExposure(std::span<const formats::LightRecord> lights, const Box3& bo
 
 /// Return the exposed lights, the exposure, and the sky. A scene without lights gets one sun; lights beyond
 /// kMaxLights are left out.
-Lighting sceneLighting(std::span<const formats::LightRecord> lights, const Box3& bounds);
+SceneLighting sceneLighting(std::span<const formats::LightRecord> lights, const Box3& bounds);
 
 /// Give a light the reflector of another one.
 void copyReflector(Light& light, const Light& other);
 
 /// Give lights the light of what surrounds them.
 /// reflectors  of the first lights, or none
-void addReflectors(Lighting& lighting, std::span<const formats::ReflectorRecord> reflectors);
+void addReflectors(SceneLighting& lighting, std::span<const formats::ReflectorRecord> reflectors);
 
 } // namespace hearth::shared

@@ -505,7 +505,10 @@ enum
     /* 1.4: need a scene whose pack has bricks */
     HEARTH_VIEW_BRICKS = 16,         /* albedo of the first voxel that a pixel's ray hits */
     HEARTH_VIEW_BRICK_LIGHTING = 17, /* radiance of that voxel */
-    HEARTH_VIEW_GI = 18              /* indirect light (GI) alone, on white surfaces */
+    HEARTH_VIEW_GI = 18,             /* indirect light (GI) alone, on white surfaces */
+    /* 1.8 */
+    HEARTH_VIEW_LIGHT_COUNT = 19, /* lights that each pixel evaluates */
+    HEARTH_VIEW_LIGHT_CELLS = 20  /* cells of the light grid */
 };
 
 /* Ambient occlusion of the sky, for packs with sky visibility (1.3). */

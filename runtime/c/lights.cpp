@@ -16,8 +16,9 @@ Status makeLights(hearth_scene& scene, const hearth_frame& frame)
     {
         const hearth_light_change& change = frame.lights[i];
         formats::LightRecord record{};
-        if (change.light < scene.scene->lights.size())
-            record.type = scene.scene->lights[change.light].type;
+        const std::span<const shared::Light> lights = scene.scene->lights->lights();
+        if (change.light < lights.size())
+            record.type = lights[change.light].type;
         static_assert(sizeof(record.world_from_light.m) == sizeof(change.world_from_light));
         std::copy_n(&change.world_from_light[0][0], 12, &record.world_from_light.m[0][0]);
         record.color = {change.color[0], change.color[1], change.color[2]};

@@ -59,6 +59,7 @@ FrameConfiguration configure(const Scene& scene, const FrameTargets& targets, co
             .has_shadows = scene.shadows != nullptr,
             .shadow_format = scene.shadows == nullptr ? FrameConfiguration{}.shadow_format
                                                       : shadowFormat(scene.shadows->depth().depth),
+            .lists_lights = scene.lights->listsOnDevice(input.shading.light_lister),
             .lights_bricks = scene.bricks != nullptr};
 }
 
@@ -89,6 +90,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const DeviceDescription& desc
     const FrameWay way = options.way.value_or(chooseFrameWay(r.device_.identity));
     HEARTH_ASSIGN_OR_RETURN(r.layouts_, DrawLayouts::create(r.device_, shadingDescriptors(way)));
     HEARTH_ASSIGN_OR_RETURN(r.passes_, FramePasses::create(r.device_, way, options.materials));
+    HEARTH_ASSIGN_OR_RETURN(r.light_lists_, LightListsPass::create(r.device_, r.layouts_));
     HEARTH_ASSIGN_OR_RETURN(r.cull_, CullPass::create(r.device_, r.layouts_));
     HEARTH_ASSIGN_OR_RETURN(r.copy_words_, WordCopyPass::create(r.device_));
     HEARTH_ASSIGN_OR_RETURN(r.page_requests_, PageRequestPass::create(r.device_));
@@ -157,8 +159,8 @@ Result<std::unique_ptr<Scene>> Renderer::upload(const formats::PackView& pack, V
         material.variant.bricks = scene->bricks != nullptr ? 1 : 0;
         material.variant.shadows = scene->shadows != nullptr ? 1 : 0;
         material.variant.filters_shadows = scene->shadows != nullptr && scene->shadows->filters() ? 1 : 0;
-        HEARTH_ASSIGN_OR_RETURN(material.pipelines, shading_.prepare(device_, layouts_, material.variant));
     }
+    HEARTH_TRY(prepareLightMethod(*scene, LightMethod::practical));
     if (layouts_.joinsSets())
     {
         HEARTH_ASSIGN_OR_RETURN(scene->joined_sets, JoinedSets::create(device_, layouts_, *scene));
@@ -200,6 +202,17 @@ Status Renderer::createShadows(const formats::PackView& pack, const ShadowOption
     return pass->createMaps(device_, pack, options, depth, commands, scene);
 }
 
+Status Renderer::prepareLightMethod(Scene& scene, LightMethod method)
+{
+    for (SceneMaterial& material : scene.materials)
+    {
+        material.variant.light_list = lightMethodFacts(method).light_list;
+        HEARTH_ASSIGN_OR_RETURN(material.pipelines[static_cast<size_t>(method)],
+                                shading_.prepare(device_, layouts_, material.variant));
+    }
+    return success();
+}
+
 Status Renderer::prepareOverdraw()
 {
     if (!overdraw_)
@@ -239,6 +252,7 @@ void Renderer::recordCulled(VkCommandBuffer commands, const Scene& scene, FrameT
     passes.begin(FrameStep::update);
     WordCopies copies = recordFrameUpdate(device_, commands, scene, targets, copy_words_, view,
                                           {input.moves, input.poses, input.lights});
+    recordLightLists(commands, scene, view, input.shading.light_lister, passes);
     if (scene.bricks != nullptr)
         recordBrickLight(commands, scene, copies, input, passes);
     if (scene.shadows != nullptr)
@@ -305,6 +319,19 @@ void Renderer::recordPrefetch(VkCommandBuffer commands, const Scene& scene, Fram
 const ShadowPass& Renderer::shadowPass(const Scene& scene) const
 {
     return *shadows_[static_cast<size_t>(scene.shadows->depth().depth)];
+}
+
+/// List the lights of the frame and of its cells, on the device or right away.
+void Renderer::recordLightLists(VkCommandBuffer commands, const Scene& scene, const shared::FrameView& view,
+                                LightLister lister, PassRecorder& passes) const
+{
+    SceneLights& lights = *scene.lights;
+    lights.beginFrame(scene.tables->lighting, scene.tables->frame, view, lister);
+    if (!lights.listsOnDevice(lister))
+        return;
+    const DebugLabel label(device_, commands, "list lights");
+    passes.begin(FrameStep::light_lists);
+    light_lists_.record(device_, commands, scene);
 }
 
 /// Draw the shadow maps that are stale: find the casters of as many as there are views, then draw these.

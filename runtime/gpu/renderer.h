@@ -5,6 +5,8 @@
 #pragma once
 
 #include "runtime/gpu/frame/frame_parts.h"
+#include "runtime/gpu/lights/light_change.h"
+#include "runtime/gpu/lights/light_lists_pass.h"
 #include "runtime/gpu/passes/bin_pass.h"
 #include "runtime/gpu/passes/brick_light_pass.h"
 #include "runtime/gpu/passes/cull_pass.h"
@@ -19,7 +21,6 @@
 #include "runtime/gpu/passes/skinning_pass.h"
 #include "runtime/gpu/passes/word_copy_pass.h"
 #include "runtime/gpu/scene/instance_motion.h"
-#include "runtime/gpu/scene/light_change.h"
 
 #include <memory>
 #include <optional>
@@ -83,6 +84,7 @@ public:
                                                     const RendererOptions& options = {});
 
     const Device& device() const { return device_; }
+    const DrawLayouts& layouts() const { return layouts_; }
 
     /// errors: device_limit, device_failed.
     Result<FrameTargets> createTargets(VkExtent2D extent, const TargetOptions& options = {}) const;
@@ -98,6 +100,10 @@ public:
     /// scene before needed.
     Result<std::unique_ptr<Scene>> upload(const formats::PackView& pack, VkCommandBuffer commands,
                                           const SceneOptions& options = {});
+
+    /// Create the pipelines of a scene's materials for a light method. Call before a frame that uses it; upload
+    /// does so for LightMethod::practical. errors: device_failed.
+    Status prepareLightMethod(Scene& scene, LightMethod method);
 
     /// Create the pipelines of the overdraw view. Call before a frame that shows it. errors: device_failed.
     Status prepareOverdraw();
@@ -140,6 +146,8 @@ private:
     Status createShadows(const formats::PackView& pack, const ShadowOptions& options,
                          VkCommandBuffer commands, Scene& scene);
     void recordSkinning(VkCommandBuffer commands, const Scene& scene, uint32_t phase) const;
+    void recordLightLists(VkCommandBuffer commands, const Scene& scene, const shared::FrameView& view,
+                          LightLister lister, PassRecorder& passes) const;
     const ShadowPass& shadowPass(const Scene& scene) const;
     void recordShadows(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
                        const shared::FrameView& view, std::span<const ShadowSphere> spheres,
@@ -165,6 +173,7 @@ private:
     Device device_;
     DrawLayouts layouts_;
     FramePasses passes_;
+    LightListsPass light_lists_;
     CullPass cull_;
     WordCopyPass copy_words_;
     PageRequestPass page_requests_;

@@ -34,6 +34,10 @@ constexpr std::string_view kDrawHelp =
     "                          off\n"
     "      --gi off|on         global illumination, in packs with bricks (default: on); off: a constant "
     "sky\n"
+    "      --lights METHOD     one of these:\n%LIGHTS%"
+    "      --light-lists gpu|cpu\n"
+    "                          which processor lists the lights of cells, default gpu; the lists are the "
+    "same\n"
     "      --shadows SETTINGS  on (default), off, or some of maps=N (as many as the lights take, 64 at "
     "most),\n"
     "                          texels=N (1024), kernel=N (1: 3x3), depth=BITS (32; 16: half the memory, "
@@ -96,6 +100,42 @@ std::string viewsHelp()
         line += item;
     }
     return text + line + "\n";
+}
+
+/// Return the light methods in lines of help.
+std::string lightMethodsHelp()
+{
+    constexpr size_t kIndent = 26, kNameWidth = 20;
+    std::string text;
+    for (const gpu::LightMethodFacts& method : gpu::kLightMethods)
+    {
+        std::string name(method.name);
+        name.resize(std::max(kNameWidth, name.size() + 1), ' ');
+        text += std::string(kIndent, ' ') + name + std::string(method.summary) + "\n";
+    }
+    return text;
+}
+
+Status parseLightMethod(std::string_view text, FrameSettings& settings)
+{
+    const std::optional<gpu::LightMethod> method = gpu::findLightMethod(text);
+    if (!method)
+    {
+        std::string names;
+        for (const gpu::LightMethodFacts& facts : gpu::kLightMethods)
+            names += (names.empty() ? "" : ", ") + std::string(facts.name);
+        return usageError("--lights: " + quoted(text) + " is none of " + names);
+    }
+    settings.light_method = *method;
+    return success();
+}
+
+Status parseLightLister(std::string_view text, FrameSettings& settings)
+{
+    if (text != "gpu" && text != "cpu")
+        return usageError("--light-lists: " + quoted(text) + " is neither gpu nor cpu");
+    settings.light_lister = text == "cpu" ? gpu::LightLister::cpu : gpu::LightLister::gpu;
+    return success();
 }
 
 /// Join names: "a, b, c".
@@ -250,9 +290,12 @@ Status parseBudget(std::string_view text, DrawOptions& options)
 
 std::string drawHelp()
 {
-    constexpr std::string_view kViews = "%VIEWS%";
     std::string help(kDrawHelp);
-    return help.replace(help.find(kViews), kViews.size(), viewsHelp());
+    const auto insert = [&](std::string_view mark, const std::string& lines)
+    { help.replace(help.find(mark), mark.size(), lines); };
+    insert("%VIEWS%", viewsHelp());
+    insert("%LIGHTS%", lightMethodsHelp());
+    return help;
 }
 
 void addDrawOptions(CommandLine& command_line, DrawOptions& options)
@@ -280,6 +323,10 @@ void addDrawOptions(CommandLine& command_line, DrawOptions& options)
                                                  settings.specular_occlusion);
                           });
     command_line.addValue("--gi", [&](std::string_view text) { return parseGi(text, settings); });
+    command_line.addValue("--lights",
+                          [&](std::string_view text) { return parseLightMethod(text, settings); });
+    command_line.addValue("--light-lists",
+                          [&](std::string_view text) { return parseLightLister(text, settings); });
     command_line.addValue(
         "--shaded-area", [&](std::string_view text)
         { return parseChoice("--shaded-area", shadedAreaNames(), text, settings.shaded_area); });

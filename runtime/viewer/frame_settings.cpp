@@ -107,7 +107,9 @@ gpu::FrameInput makeFrame(const FrameSettings& settings, const shared::Camera& c
                         .area = settings.shaded_area,
                         .ambient_occlusion = settings.ambient_occlusion,
                         .specular_occlusion = settings.specular_occlusion,
-                        .gi = settings.gi},
+                        .gi = settings.gi,
+                        .light_method = settings.light_method,
+                        .light_lister = settings.light_lister},
             .occludes_by_last_frame = settings.occludes_by_last_frame};
 }
 

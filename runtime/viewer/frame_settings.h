@@ -26,6 +26,8 @@ struct FrameSettings
     uint32_t ambient_occlusion = shared::kAmbientOcclusionExact; ///< shared::kAmbientOcclusion*
     uint32_t specular_occlusion = shared::kSpecularOcclusionFit; ///< shared::kSpecularOcclusion*
     bool gi = true;                                              ///< GI, for packs with bricks
+    gpu::LightMethod light_method = gpu::LightMethod::practical;
+    gpu::LightLister light_lister = gpu::LightLister::gpu;
 };
 
 /// Value and its name for people.

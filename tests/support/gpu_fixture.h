@@ -51,6 +51,8 @@ struct DrawOptions
     std::span<const gpu::LightChange> lights{};
     std::span<const gpu::EmissionScale> emission{};
     bool gi = true;
+    gpu::LightMethod light_method = gpu::LightMethod::practical;
+    gpu::LightLister light_lister = gpu::LightLister::gpu;
 };
 
 /// Skips tests without a device. Fails if the validation layers report anything in any test.

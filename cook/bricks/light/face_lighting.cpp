@@ -30,7 +30,7 @@ FaceLighting::FaceLighting(const BrickView& bricks)
         faces_.push_back({code, 0});
 }
 
-void FaceLighting::light(const Lighting& lighting, const FrameBudget& share)
+void FaceLighting::light(const SceneLighting& lighting, const FrameBudget& share)
 {
     HEARTH_ASSERT(share.period > 0 && share.rays > 0);
     const std::span<const Brick> bricks = bricks_.masks.bricks;
@@ -51,7 +51,7 @@ void FaceLighting::light(const Lighting& lighting, const FrameBudget& share)
               faces_.begin() + static_cast<ptrdiff_t>(first));
 }
 
-void FaceLighting::sweep(const Lighting& lighting, uint32_t rays, uint32_t sweeps)
+void FaceLighting::sweep(const SceneLighting& lighting, uint32_t rays, uint32_t sweeps)
 {
     for (uint32_t i = 0; i < sweeps; ++i)
         light(lighting, {.period = 1, .rays = rays});
@@ -66,7 +66,7 @@ std::vector<uint32_t> FaceLighting::codes() const
     return codes;
 }
 
-void FaceLighting::light(const Lighting& lighting, uint32_t rays, size_t first, size_t end)
+void FaceLighting::light(const SceneLighting& lighting, uint32_t rays, size_t first, size_t end)
 {
     const BrickScene scene = this->scene();
     std::vector<BrickStart> starts;
@@ -78,17 +78,16 @@ void FaceLighting::light(const Lighting& lighting, uint32_t rays, size_t first, 
         addFaceRays(scene, places_[face], starts.back(), rays, marched);
     }
     marchRays(table_, marched);
-    const Sky sky{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground};
     for (size_t face = first; face < end; ++face)
     {
         const BrickStart& start = starts[face - first];
         // same sum as brickGather
         Float3 sum;
         for (size_t i = 0; i < rays; ++i)
-            sum += traceBrickLight(scene, sky, marched[(face - first) * rays + i]).radiance;
+            sum += traceBrickLight(scene, lighting.sky, marched[(face - first) * rays + i]).radiance;
         Float3 irradiance = start.is_interior != 0 ? Float3{} : sum * (1.0f / static_cast<float>(rays));
-        for (uint32_t i = 0; i < lighting.light_count; ++i)
-            irradiance += brickDirect(scene, start, lighting.lights[i]);
+        for (const Light& light : lighting.lights)
+            irradiance += brickDirect(scene, start, light);
         next_[face] =
             encodeBrickLight(brickOutgoingRadiance(decodeRadiance(bricks_.emission[face]) * lighting.exposure,
                                                    decodeAlbedo(bricks_.albedo[face]), irradiance));

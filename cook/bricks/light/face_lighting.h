@@ -7,6 +7,7 @@
 #include "cook/bricks/grid/face_locations.h"
 #include "cook/bricks/light/march_lanes.h"
 #include "formats/gpu_shared/brick_lighting.h"
+#include "formats/scene/scene_lighting.h"
 
 #include <vector>
 
@@ -30,10 +31,10 @@ public:
 
     /// Light one frame. The result has the same bits for any number of threads.
     /// lighting  lights in world space, after exposure
-    void light(const shared::Lighting& lighting, const FrameBudget& share);
+    void light(const shared::SceneLighting& lighting, const FrameBudget& share);
 
     /// Light frames until all faces have been lit `sweeps` times.
-    void sweep(const shared::Lighting& lighting, uint32_t rays, uint32_t sweeps);
+    void sweep(const shared::SceneLighting& lighting, uint32_t rays, uint32_t sweeps);
 
     /// Return the outgoing radiance of each face.
     std::span<const shared::BrickLight> faces() const { return faces_; }
@@ -46,7 +47,7 @@ public:
 
 private:
     /// Light the faces first to end - 1 into next_, with so many rays each.
-    void light(const shared::Lighting& lighting, uint32_t rays, size_t first, size_t end);
+    void light(const shared::SceneLighting& lighting, uint32_t rays, size_t first, size_t end);
 
     BrickView bricks_;
     MarchTable table_;

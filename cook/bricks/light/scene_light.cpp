@@ -8,7 +8,7 @@
 namespace hearth::bricks
 {
 
-shared::Lighting makeSceneLighting(const StaticScene& scene)
+shared::SceneLighting makeSceneLighting(const StaticScene& scene)
 {
     std::vector<formats::LightRecord> lights;
     Box3 bounds;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cook/bricks/voxels/static_scene.h"
-#include "formats/gpu_shared/shading.h"
+#include "formats/scene/scene_lighting.h"
 
 namespace hearth::bricks
 {
@@ -11,6 +11,6 @@ namespace hearth::bricks
 /// Return the lights of all sources, in order, as many as the runtime draws; one sun if there is none; the
 /// default sky; and the exposure by the runtime's rule (runtime/gpu/README.md), which counts moving instances
 /// too.
-shared::Lighting makeSceneLighting(const StaticScene& scene);
+shared::SceneLighting makeSceneLighting(const StaticScene& scene);
 
 } // namespace hearth::bricks

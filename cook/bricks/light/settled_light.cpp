@@ -70,7 +70,7 @@ float forEachMetFace(const BrickScene& scene, BrickRay ray, const Visit& visit)
 class EquationMaker
 {
 public:
-    EquationMaker(const BrickView& bricks, const Lighting& lighting, uint32_t rays)
+    EquationMaker(const BrickView& bricks, const SceneLighting& lighting, uint32_t rays)
         : bricks_(bricks),
           lighting_(lighting),
           rays_(rays),
@@ -104,7 +104,6 @@ private:
 
     void add(size_t face, const BrickStart& start, std::span<const BrickRay> rays, Block& block) const
     {
-        const Sky sky{lighting_.sky_zenith, lighting_.sky_horizon, lighting_.sky_ground};
         const Float3 albedo = decodeAlbedo(bricks_.albedo[face]);
         const float part = 1.0f / static_cast<float>(rays_);
         Float3 irradiance;
@@ -116,10 +115,10 @@ private:
                                                          block.terms.push_back({met, share * part});
                                                      });
                 if (through > 0)
-                    irradiance += skyRadiance(sky, ray.direction) * (through * part);
+                    irradiance += skyRadiance(lighting_.sky, ray.direction) * (through * part);
             }
-        for (uint32_t i = 0; i < lighting_.light_count; ++i)
-            irradiance += brickDirect(scene(), start, lighting_.lights[i]);
+        for (const Light& light : lighting_.lights)
+            irradiance += brickDirect(scene(), start, light);
         block.constants.push_back(brickOutgoingRadiance(
             decodeRadiance(bricks_.emission[face]) * lighting_.exposure, albedo, irradiance));
         block.albedos.push_back(brickOutgoingRadiance({}, albedo, {1, 1, 1}));
@@ -129,13 +128,13 @@ private:
     BrickScene scene() const { return {bricks_.masks, bricks_.opacity, {}}; }
 
     const BrickView& bricks_;
-    const Lighting& lighting_;
+    const SceneLighting& lighting_;
     uint32_t rays_;
     MarchTable table_;
     std::vector<FaceLocation> places_;
 };
 
-std::vector<Block> makeEquations(const BrickView& bricks, const Lighting& lighting, uint32_t rays)
+std::vector<Block> makeEquations(const BrickView& bricks, const SceneLighting& lighting, uint32_t rays)
 {
     const EquationMaker maker(bricks, lighting, rays);
     const size_t faces = bricks.albedo.size();
@@ -178,7 +177,7 @@ Change sweep(const Block& block, size_t first, std::span<const Float3> before, s
 
 } // namespace
 
-SettledLight settleLight(const BrickView& bricks, const Lighting& lighting, uint32_t rays)
+SettledLight settleLight(const BrickView& bricks, const SceneLighting& lighting, uint32_t rays)
 {
     HEARTH_ASSERT(rays > 0);
     const std::vector<Block> blocks = makeEquations(bricks, lighting, rays);

@@ -8,7 +8,7 @@
 #pragma once
 
 #include "cook/bricks/grid/brick_view.h"
-#include "formats/gpu_shared/shading.h"
+#include "formats/scene/scene_lighting.h"
 
 #include <cstdint>
 #include <vector>
@@ -26,6 +26,6 @@ struct SettledLight
 /// ten-thousandth. The result does not depend on the number of threads.
 /// lighting  lights in world space, after exposure
 /// rays      per face, at least 1; the runtime takes 16
-SettledLight settleLight(const BrickView& bricks, const shared::Lighting& lighting, uint32_t rays = 16);
+SettledLight settleLight(const BrickView& bricks, const shared::SceneLighting& lighting, uint32_t rays = 16);
 
 } // namespace hearth::bricks

@@ -85,7 +85,7 @@ Status lightGrid(const StaticScene& scene, CookedGrid& grid)
     start = std::chrono::steady_clock::now();
     HEARTH_ASSIGN_OR_RETURN(grid.tables.reflectors,
                             findReflectors(scene, grid.statistics.frame, grid.statistics.error));
-    shared::Lighting lighting = makeSceneLighting(scene);
+    shared::SceneLighting lighting = makeSceneLighting(scene);
     shared::addReflectors(lighting, grid.tables.reflectors);
     SettledLight light = settleLight(makeBrickView(grid.tables), lighting);
     grid.tables.lighting = std::move(light.codes);

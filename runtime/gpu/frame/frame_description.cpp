@@ -22,13 +22,15 @@ constexpr ResourceFacts kResources[] = {
     {"scene tables", ResourceKind::buffer, 0},       {"pages", ResourceKind::buffer, 0, true},
     {"work lists", ResourceKind::buffer, 0},         {"visible list", ResourceKind::buffer, 0, true},
     {"caster lists", ResourceKind::buffer, 0, true}, {"brick light", ResourceKind::buffer, 0},
+    {"light lists", ResourceKind::buffer, 0, true},
 };
 static_assert(std::size(kResources) == static_cast<size_t>(FrameResource::count));
 
 constexpr const char* kSteps[] = {
-    "update",  "light bricks",   "shadow cull",      "shadow map",    "shadow copy", "moving shadow map",
-    "cull",    "last pyramid",   "early visibility", "early pyramid", "late cull",   "visibility",
-    "pyramid", "material tiles", "gather light",     "shading",
+    "update",        "list lights",       "light bricks", "shadow cull",  "shadow map",
+    "shadow copy",   "moving shadow map", "cull",         "last pyramid", "early visibility",
+    "early pyramid", "late cull",         "visibility",   "pyramid",      "material tiles",
+    "gather light",  "shading",
 };
 static_assert(std::size(kSteps) == static_cast<size_t>(FrameStep::count));
 

@@ -32,6 +32,7 @@ enum class FrameResource : uint8_t
     visible_list,   ///< clusters to draw, their draws, counters and skinned vertices
     caster_lists,   ///< the same of shadow maps
     brick_light,    ///< light of the faces of bricks
+    light_lists,    ///< lights of the frame and of the cells of its light grid
     count,
 };
 
@@ -59,6 +60,7 @@ const ResourceFacts& resourceFacts(FrameResource resource);
 enum class FrameStep : uint8_t
 {
     update,
+    light_lists, ///< find the lights of the frame, and of each cell
     brick_light,
     shadow_cull,       ///< find the casters of as many maps as are culled side by side
     shadow_map,        ///< draw a map
@@ -284,6 +286,7 @@ struct FrameConfiguration
     bool shows_overdraw = false;
     bool has_shadows = false;
     VkFormat shadow_format = VK_FORMAT_D32_SFLOAT; ///< of shadow maps, or VK_FORMAT_D16_UNORM
+    bool lists_lights = false; ///< the device lists the lights of cells; otherwise the CPU has done so
     bool lights_bricks = false;
     std::vector<MapContent> maps{}; ///< shadow maps that the frame draws, in order; the others are cached
     uint32_t maps_at_once = 8;      ///< maps whose casters are found before any of them is drawn

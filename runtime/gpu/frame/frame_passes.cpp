@@ -222,7 +222,7 @@ Result<FramePasses> FramePasses::create(const Device& device, FrameWay way, Mate
             configurations.push_back(configuration);
         }
     for (FrameConfiguration& configuration : configurations)
-        configuration.lights_bricks = true;
+        configuration.lists_lights = configuration.lights_bricks = true;
     for (FrameDescription& description : describeFrames(configurations))
     {
         FramePlan plan{std::move(description), {}};

@@ -118,6 +118,8 @@ Step shadingStep(const FrameConfiguration& c)
         step.uses.push_back({Resource::gathered_light, Access::fragment_read});
     if (c.has_shadows)
         step.uses.push_back({Resource::shadow_map, Access::fragment_read, Content::keep, 0});
+    if (c.lists_lights)
+        step.uses.push_back({Resource::light_lists, Access::fragment_read});
     return step;
 }
 
@@ -146,6 +148,10 @@ std::vector<Step> listSteps(const FrameConfiguration& c)
          .kind = PassKind::compute,
          .uses = {{Resource::scene_tables, Access::compute_write}, {Resource::pages, Access::compute_write}},
          .host_write = HostWrite::ring});
+    if (c.lists_lights)
+        steps.push_back({.step = FrameStep::light_lists,
+                         .kind = PassKind::compute,
+                         .uses = {{Resource::light_lists, Access::compute_write, Content::overwrite}}});
     if (c.lights_bricks)
         steps.push_back({.step = FrameStep::brick_light,
                          .kind = PassKind::compute,
@@ -393,6 +399,7 @@ Touches touchesOfEarlierFrames(FrameWay way, MaterialTest materials)
     Touches touches;
     for (FrameConfiguration c : allConfigurations(way, materials))
     {
+        c.lists_lights = true;
         c.lights_bricks = true;
         addMapsOfAllKinds(c);
         for (const Step& step : listSteps(c))

@@ -131,7 +131,7 @@ std::string jsonConfiguration(const FrameConfiguration& c)
            ",\"gathers_light\":" + boolean(c.gathers_light) + ",\"in_parts\":" + boolean(c.in_parts) +
            ",\"keeps_visibility\":" + boolean(c.keeps_visibility) +
            ",\"shows_overdraw\":" + boolean(c.shows_overdraw) + ",\"shadows\":" + boolean(c.has_shadows) +
-           ",\"bricks\":" + boolean(c.lights_bricks) + "}";
+           ",\"light_lists\":" + boolean(c.lists_lights) + ",\"bricks\":" + boolean(c.lights_bricks) + "}";
 }
 
 } // namespace

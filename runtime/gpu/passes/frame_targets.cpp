@@ -3,6 +3,7 @@
 
 #include "formats/gpu_shared/material_tiles.h"
 #include "formats/gpu_shared/occlusion.h"
+#include "runtime/frame/frame.h"
 #include "runtime/gpu/frame/frame_plan.h"
 
 #include <cstring>

@@ -86,6 +86,7 @@ DrawConstants ShadingPass::drawConstants(const ShadingVariant& variant, bool res
     constants[shared::kConstantUnlit] = variant.unlit;
     constants[shared::kConstantSkyVisibility] = variant.sky_visibility;
     constants[shared::kConstantLayers] = variant.layers;
+    constants[shared::kConstantLightList] = variant.light_list;
     return constants;
 }
 
@@ -282,11 +283,11 @@ void ShadingPass::recordMaterials(const Device& device, VkCommandBuffer commands
     for (uint32_t row = 0; row < scene.materials.size(); ++row)
     {
         const SceneMaterial& material = scene.materials[row];
+        const ShadingPipelines& pipelines = material.pipelines[static_cast<size_t>(view.light_method)];
         device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                                    view.debug_view != shared::kViewFinal
-                                        ? material.pipelines.debug_view_pipeline
-                                    : usesGi(scene, view) ? material.pipelines.final_gi_pipeline
-                                                          : material.pipelines.final_pipeline);
+                                    view.debug_view != shared::kViewFinal ? pipelines.debug_view_pipeline
+                                    : usesGi(scene, view)                 ? pipelines.final_gi_pipeline
+                                                                          : pipelines.final_pipeline);
         const uint32_t number = row + 1; // 0 is the sky
         const shared::ShadingPush push = shadingPush(view, number, sky_occlusion);
         setStencil(device, commands, number);

@@ -35,6 +35,8 @@ struct ShadingSettings
     uint32_t specular_occlusion = shared::kSpecularOcclusionFit; ///< for meshes with visibility
     /// Indirect light for scenes with bricks (GI); false: constant sky.
     bool gi = true;
+    LightMethod light_method = LightMethod::practical; ///< prepared: Renderer::prepareLightMethod
+    LightLister light_lister = LightLister::gpu;
 };
 
 /// True if the frame lists material tiles before shading.

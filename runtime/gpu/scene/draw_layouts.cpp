@@ -91,6 +91,10 @@ Status DrawLayouts::createFrameSets(const Device& device)
                                         storageBinding(shared::kTilesMaterials, kComputeStage),
                                         storageBinding(shared::kTilesLists, kComputeStage)};
     HEARTH_ASSIGN_OR_RETURN(tiles, createSetLayout(device, tile_bindings));
+
+    const SetBinding light_bindings[] = {storageBinding(shared::kLightsBuffer, kComputeStage),
+                                         storageBinding(shared::kLightsInView, kComputeStage)};
+    HEARTH_ASSIGN_OR_RETURN(lights, createSetLayout(device, light_bindings));
     return success();
 }
 

@@ -60,6 +60,7 @@ struct DrawLayouts
     UniqueSetLayout cluster_view;     ///< kClusterViewTables
     UniqueSetLayout joined_shading;   ///< scene, material, attachments; with ShadingDescriptors::one_set
     UniqueSetLayout joined_clusters;  ///< cluster_view and visibility buffer; with the same
+    UniqueSetLayout lights;           ///< shared::kLights*: passes that list lights
     UniqueSetLayout bricks;           ///< shared::kBricks*
     UniqueSetLayout fresh_light;      ///< shared::kFreshLight*
     UniqueSetLayout gather_point;     ///< shared::kGatherPoint*

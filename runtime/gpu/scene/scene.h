@@ -4,6 +4,8 @@
 #pragma once
 
 #include "formats/gpu_shared/shading.h"
+#include "runtime/gpu/lights/light_method.h"
+#include "runtime/gpu/lights/scene_lights.h"
 #include "runtime/gpu/scene/draw_layouts.h"
 #include "runtime/gpu/scene/joined_sets.h"
 #include "runtime/gpu/scene/scene_bricks.h"
@@ -40,6 +42,10 @@ struct SceneOptions
     uint64_t geometry_budget = 0;
     StreamOptions stream{};
 
+    /// Slots of lights, up to shared::kMaxLights: the pack's, and more that frames fill. At least as many as
+    /// the pack has.
+    uint32_t max_lights = 128;
+
     ShadowOptions shadows{}; ///< none unless max_maps is set (runtime/gpu/README.md, "Shadows")
 
     DeformationOptions deformation{}; ///< for scenes with deformed meshes
@@ -56,7 +62,8 @@ struct SceneBuffers
     Buffer materials, items, order, clusters, bins, group_items;
     // constant except for streaming
     Buffer groups;
-    Buffer cluster_draws; ///< mapped: rows of a page change while no frame draws it
+    Buffer cluster_draws;  ///< mapped: rows of a page change while no frame draws it
+    Buffer lights_in_view; ///< shared::CellLight of the frame
     std::array<Buffer, shared::kPoolSlices> pool;
     // rewritten by every culling phase, and read by compute shaders only
     Buffer states, results, totals;
@@ -82,6 +89,7 @@ struct ShadingVariant
     uint32_t filters_shadows = 0; ///< 1: the device filters their format
     uint32_t sky_visibility = 0;  ///< 1: used by meshes with sky visibility
     uint32_t bricks = 0;          ///< 1: the scene has bricks
+    uint32_t light_list = shared::kLightListCells;
     friend auto operator<=>(const ShadingVariant&, const ShadingVariant&) = default;
 };
 
@@ -99,7 +107,7 @@ struct SceneMaterial
 {
     VkDescriptorSet set = VK_NULL_HANDLE;
     ShadingVariant variant;
-    ShadingPipelines pipelines;
+    std::array<ShadingPipelines, kLightMethodCount> pipelines; ///< of the light methods that are prepared
 };
 
 /// Scene on the device. Submit its frames to one queue, in the order in which they were recorded.
@@ -137,10 +145,9 @@ struct Scene
     Image sky_table;                            ///< of formats/gpu_shared/sky.h
     Image specular_table;                       ///< empty if the pack has none
     uint32_t specular_spacing = 0;              ///< shared::kSpecularSpacing* of the table
-    std::vector<shared::Light> lights;          ///< lights that are drawn, as loaded
-    float exposure = 1;                         ///< of all lights and emission
-    uint32_t dropped_lights = 0;                ///< lights of the pack beyond shared::kMaxLights
-    Box3 bounds;                                ///< world space, empty if there is nothing to draw
+    std::unique_ptr<SceneLights> lights;
+    uint32_t dropped_lights = 0; ///< lights of the pack beyond shared::kMaxLights
+    Box3 bounds;                 ///< world space, empty if there is nothing to draw
 };
 
 /// True if a mesh has sky visibility; otherwise the settings of sky occlusion have no effect.

@@ -106,9 +106,9 @@ shared::MaterialLayers makeLayers(const formats::MaterialLayersRecord& record)
     return layers;
 }
 
-shared::Lighting makeLighting(const formats::PackView& pack)
+shared::SceneLighting makeLighting(const formats::PackView& pack)
 {
-    shared::Lighting lighting =
+    shared::SceneLighting lighting =
         shared::sceneLighting(pack.lights(), shared::lightingBounds(pack.instances(), pack.meshes()));
     shared::addReflectors(lighting, pack.reflectors());
     assignShadowRows(lighting);

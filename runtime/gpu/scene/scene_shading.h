@@ -3,8 +3,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/gpu_shared/shading.h"
 #include "formats/pack/pack_view.h"
+#include "formats/scene/scene_lighting.h"
 
 #include <array>
 #include <vector>
@@ -37,6 +37,6 @@ uint32_t layerBits(const formats::MaterialLayersRecord& layers);
 shared::MaterialLayers makeLayers(const formats::MaterialLayersRecord& record);
 
 /// Compute lights and sky by shared::sceneLighting, with the shadow rows of the lights.
-shared::Lighting makeLighting(const formats::PackView& pack);
+shared::SceneLighting makeLighting(const formats::PackView& pack);
 
 } // namespace hearth::gpu

@@ -59,9 +59,9 @@ Result<std::unique_ptr<SceneShadows>> SceneShadows::create(const Device& device,
     std::unique_ptr<SceneShadows> shadows(new SceneShadows(device, pack, options, depth));
     SceneShadows& s = *shadows;
     s.bounds_ = bounds;
-    const shared::Lighting lighting = makeLighting(pack);
+    const shared::SceneLighting lighting = makeLighting(pack);
     s.projections_ = makeShadowCasters(lighting, bounds, options.spot_near);
-    s.light_count_ = lighting.light_count;
+    s.light_count_ = static_cast<uint32_t>(lighting.lights.size());
     s.spheres_ = readShadowSpheres(pack);
     s.pack_sphere_count_ = s.spheres_.size();
     HEARTH_TRY(s.createImage());
@@ -128,7 +128,10 @@ void SceneShadows::track(std::span<const InstanceMove> moves,
 void SceneShadows::change(uint32_t light, const shared::Light& record)
 {
     if (record.shadow_row < projections_.size())
-        setShadowCasters(record, light, bounds_, options_.spot_near, projections_);
+        return setShadowCasters(record, light, bounds_, options_.spot_near, projections_);
+    for (ShadowCaster& caster : projections_)
+        if (caster.light == light)
+            caster.light = ShadowCaster::kNoLight;
 }
 
 std::vector<ShadowCache::LayerUpdate> SceneShadows::findStale(const shared::FrameView& view,

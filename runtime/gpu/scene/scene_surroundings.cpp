@@ -21,24 +21,22 @@ SceneSurroundings::Row packRow(const formats::SurroundingsRecord& record)
 
 } // namespace
 
-SceneSurroundings::SceneSurroundings(const formats::PackView& pack, const shared::Lighting& lighting)
+SceneSurroundings::SceneSurroundings(const formats::PackView& pack, const shared::SceneLighting& lighting)
     : transfers_(pack.radianceTransfers().begin(), pack.radianceTransfers().end()),
-      sky_{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground},
-      lights_(lighting.lights, lighting.lights + lighting.light_count)
+      sky_(lighting.sky),
+      lights_(lighting.lights)
 {
     std::ranges::transform(pack.surroundings(), std::back_inserter(instances_), packRow);
 }
 
 uint64_t SceneSurroundings::countRows(const formats::PackView& pack)
 {
-    return pack.radianceTransfers().size() * shared::kOccluderLightRows + pack.surroundings().size();
+    return countTransferRows(pack) + pack.surroundings().size();
 }
 
-uint32_t SceneSurroundings::firstInstanceRow(const formats::PackView& pack)
+uint64_t SceneSurroundings::countTransferRows(const formats::PackView& pack)
 {
-    return pack.surroundings().empty()
-               ? shared::kNoSurroundings
-               : static_cast<uint32_t>(pack.radianceTransfers().size()) * shared::kOccluderLightRows;
+    return pack.radianceTransfers().size() * shared::kOccluderLightRows;
 }
 
 std::vector<shared::OccluderLight> SceneSurroundings::makeOccluderLights() const
@@ -61,19 +59,22 @@ std::vector<SceneSurroundings::Row> SceneSurroundings::makeRows() const
     return rows;
 }
 
-void SceneSurroundings::change(uint32_t light, const shared::Light& record)
+void SceneSurroundings::change(uint32_t slot, const shared::Light& record)
 {
-    lights_[light] = record;
-    changed_ = changed_ || record.type == shared::kLightDirectional;
+    if (slot >= lights_.size())
+        lights_.resize(slot + 1);
+    changed_ = changed_ || record.type == shared::kLightDirectional ||
+               lights_[slot].type == shared::kLightDirectional;
+    lights_[slot] = record;
 }
 
-void SceneSurroundings::update(MirroredTable& lighting)
+void SceneSurroundings::update(MirroredTable& lighting, VkDeviceSize offset)
 {
     if (!changed_)
         return;
     changed_ = false;
     const std::vector<shared::OccluderLight> lights = makeOccluderLights();
-    lighting.write(sizeof(shared::Lighting), std::as_bytes(std::span(lights)));
+    lighting.write(offset, std::as_bytes(std::span(lights)));
 }
 
 } // namespace hearth::gpu

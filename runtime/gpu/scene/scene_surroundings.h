@@ -19,22 +19,23 @@ public:
 
     /// pack      with surroundings
     /// lighting  of the scene, as loaded
-    SceneSurroundings(const formats::PackView& pack, const shared::Lighting& lighting);
+    SceneSurroundings(const formats::PackView& pack, const shared::SceneLighting& lighting);
 
     /// Return the number of rows of a pack; 0 if it has no surroundings.
     static uint64_t countRows(const formats::PackView& pack);
 
-    /// Return the row of the first instance, or kNoSurroundings.
-    static uint32_t firstInstanceRow(const formats::PackView& pack);
+    /// Return the number of the rows before those of instances.
+    static uint64_t countTransferRows(const formats::PackView& pack);
 
     /// Return all rows under the present lights.
     std::vector<Row> makeRows() const;
 
     /// Take the new state of a light; the next update() has it.
-    void change(uint32_t light, const shared::Light& record);
+    void change(uint32_t slot, const shared::Light& record);
 
     /// Write the rows that depend on the lights, if a directional light has changed.
-    void update(MirroredTable& lighting);
+    /// offset  of the rows in the table
+    void update(MirroredTable& lighting, VkDeviceSize offset);
 
 private:
     std::vector<shared::OccluderLight> makeOccluderLights() const;

@@ -144,10 +144,10 @@ Status createBuffers(const Device& device, const formats::PackView& pack, const 
     SceneBuffers& b = scene.buffers;
     SceneTables& t = *scene.tables;
     BufferFactory f(device, pack, scene);
-    f.makeMirrored(t.lighting, "lights",
-                   sizeof(shared::Lighting) +
-                       SceneSurroundings::countRows(pack) * sizeof(SceneSurroundings::Row),
-                   0, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+    const LightBufferLayout& lights = scene.lights->layout();
+    f.makeMirrored(t.lighting, "lights", lights.lists, lights.end - lights.lists, kWorkUsage);
+    f.make(b.lights_in_view, "lights", lights.capacity, sizeof(shared::CellLight),
+           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     f.makeMirrored(t.instances, "instances", pack.instances().size() * sizeof(shared::Instance), 0,
                    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     f.makeMirrored(t.inverses, "instances", pack.instances().size() * sizeof(shared::InstanceInverse), 0,
@@ -219,23 +219,14 @@ Status uploadTables(const formats::PackView& pack, const SceneLayout& layout, Up
     if (scene.deformation != nullptr)
         scene.deformation->table.fill(std::as_bytes(std::span(layout.deformation.words)));
 
-    shared::Lighting lighting = makeLighting(pack);
-    lighting.surroundings_row = SceneSurroundings::firstInstanceRow(pack);
-    scene.lights.assign(lighting.lights, lighting.lights + lighting.light_count);
-    scene.exposure = lighting.exposure;
-    scene.dropped_lights = static_cast<uint32_t>(pack.lights().size() -
-                                                 std::min<size_t>(pack.lights().size(), shared::kMaxLights));
     std::vector<SceneSurroundings::Row> rows;
     if (!pack.surroundings().empty())
     {
-        scene.surroundings = std::make_unique<SceneSurroundings>(pack, lighting);
+        scene.surroundings = std::make_unique<SceneSurroundings>(pack, makeLighting(pack));
         rows = scene.surroundings->makeRows();
     }
-    std::vector<std::byte> lit(sizeof(lighting) + rows.size() * sizeof(rows[0]));
-    std::memcpy(lit.data(), &lighting, sizeof(lighting));
-    if (!rows.empty())
-        std::memcpy(lit.data() + sizeof(lighting), rows.data(), rows.size() * sizeof(rows[0]));
-    tables.lighting.fill(lit);
+    scene.lights->fill(tables.lighting, std::as_bytes(std::span(rows)),
+                       SceneSurroundings::countTransferRows(pack), !rows.empty());
     return success();
 }
 
@@ -289,14 +280,15 @@ Status createViewSets(const Device& device, const DrawLayouts& layouts, const Sc
 Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene, uint32_t material_rows)
 {
     // a view has sets for drawing and bins, and seven of the culling pass; a frame one each for cluster
-    // views, tiles, page requests of both kinds, skinning and bricks, and six for copies; bricks one more
+    // views, lights, tiles, page requests of both kinds, skinning and bricks, and six for copies; bricks one
+    // more
     const auto frames = static_cast<uint32_t>(scene.frames.size());
     const uint32_t views = frames * (1 + static_cast<uint32_t>(scene.frames.front().casters.size()));
     const DescriptorPoolSizes sizes{.uniforms = 6 * views + 8 * frames + 2 * material_rows,
-                                    .storages = 56 * views + 64 * frames + 2,
+                                    .storages = 56 * views + 66 * frames + 2,
                                     .textures = material_rows * shared::kTextureCount + 4 * views};
     HEARTH_ASSIGN_OR_RETURN(scene.pool,
-                            createDescriptorPool(device, 9 * views + 12 * frames + 1 + material_rows, sizes));
+                            createDescriptorPool(device, 9 * views + 13 * frames + 1 + material_rows, sizes));
     for (uint32_t number = 0; number < frames; ++number)
     {
         SceneFrame& frame = scene.frames[number];
@@ -306,6 +298,11 @@ Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene
         HEARTH_ASSIGN_OR_RETURN(frame.cluster_view_set,
                                 allocateSet(device, scene.pool.get(), layouts.cluster_view.get()));
         writeTables(device, mainView(scene, number), frame.cluster_view_set, kClusterViewTables);
+        HEARTH_ASSIGN_OR_RETURN(frame.light_set, allocateSet(device, scene.pool.get(), layouts.lights.get()));
+        DescriptorWriter(frame.light_set)
+            .storage(shared::kLightsBuffer, scene.tables->lighting.copy(number))
+            .storage(shared::kLightsInView, scene.buffers.lights_in_view)
+            .write(device);
     }
     return success();
 }
@@ -404,6 +401,13 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
     scene->used_slices = layout.pool.slice_words[1] == 0 ? 1 : shared::kPoolSlices;
     scene->bounds = pack::sceneBounds(pack);
 
+    shared::SceneLighting lighting = makeLighting(pack);
+    scene->dropped_lights = static_cast<uint32_t>(pack.lights().size() -
+                                                  std::min<size_t>(pack.lights().size(), shared::kMaxLights));
+    const auto slots = static_cast<uint32_t>(
+        std::clamp<size_t>(options.max_lights, lighting.lights.size(), shared::kMaxLights));
+    scene->lights = std::make_unique<SceneLights>(
+        LightBufferLayout::make(slots, SceneSurroundings::countRows(pack)), std::move(lighting));
     if (!layout.deformation.words.empty())
         scene->deformation = makeDeformation(device, options.deformation, layout, group_items.rigid_items);
     HEARTH_TRY(createBuffers(device, pack, layout, options, *scene));

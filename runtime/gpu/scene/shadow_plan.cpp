@@ -189,10 +189,10 @@ uint32_t countShadowRows(const shared::Light& light)
     return hasType(light, formats::LightType::point) ? shared::kPointFaces : 1;
 }
 
-void assignShadowRows(shared::Lighting& lighting)
+void assignShadowRows(shared::SceneLighting& lighting)
 {
     uint32_t row = 0;
-    const std::span lights(lighting.lights, lighting.light_count);
+    std::vector<shared::Light>& lights = lighting.lights;
     for (shared::Light& light : lights)
         light.shadow_row = shared::kNoShadow;
     for (const formats::LightType type :
@@ -232,12 +232,13 @@ void setShadowCasters(const shared::Light& light, uint32_t number, const Box3& s
                       .range = light.range};
 }
 
-std::vector<ShadowCaster> makeShadowCasters(const shared::Lighting& lighting, const Box3& scene, float near)
+std::vector<ShadowCaster> makeShadowCasters(const shared::SceneLighting& lighting, const Box3& scene,
+                                            float near)
 {
     std::vector<ShadowCaster> casters;
     if (scene.empty())
         return casters;
-    for (uint32_t i = 0; i < lighting.light_count; ++i)
+    for (uint32_t i = 0; i < lighting.lights.size(); ++i)
     {
         const shared::Light& light = lighting.lights[i];
         if (light.shadow_row == shared::kNoShadow)
@@ -248,10 +249,10 @@ std::vector<ShadowCaster> makeShadowCasters(const shared::Lighting& lighting, co
     return casters;
 }
 
-uint32_t countShadowMaps(const shared::Lighting& lighting, uint32_t splits, size_t spheres)
+uint32_t countShadowMaps(const shared::SceneLighting& lighting, uint32_t splits, size_t spheres)
 {
     size_t count = 0;
-    for (const shared::Light& light : std::span(lighting.lights, lighting.light_count))
+    for (const shared::Light& light : lighting.lights)
         if (light.shadow_row != shared::kNoShadow)
             count += hasType(light, formats::LightType::directional) ? splits + spheres
                                                                      : countShadowRows(light) * (1 + spheres);
@@ -297,7 +298,8 @@ ShadowPlan planShadows(std::span<const ShadowCaster> casters, const ShadowOption
     for (size_t row = 0; row < casters.size();)
     {
         const size_t count = countRowsOfLight(casters.subspan(row));
-        planLight(static_cast<uint32_t>(row), casters.subspan(row, count), options, view, spheres, plan);
+        if (casters[row].light != ShadowCaster::kNoLight)
+            planLight(static_cast<uint32_t>(row), casters.subspan(row, count), options, view, spheres, plan);
         row += count;
     }
     return plan;

@@ -5,6 +5,7 @@
 
 #include "formats/gpu_shared/shading.h"
 #include "formats/pack/pack_view.h"
+#include "formats/scene/scene_lighting.h"
 #include "runtime/frame/shadow_fit.h"
 
 #include <vector>
@@ -70,7 +71,9 @@ struct ShadowSphere
 /// faces of a point light follow each other.
 struct ShadowCaster
 {
-    uint32_t light = 0; ///< index in the pack
+    static constexpr uint32_t kNoLight = 0xFFFFFFFF; ///< the row has lost its light, and gets no map
+
+    uint32_t light = 0; ///< slot
     uint32_t face = 0;  ///< of a point light
     shared::ShadowLight projection{};
     float tangent = 0; ///< half-width of a spot or of a face; 0: a sun
@@ -85,7 +88,7 @@ uint32_t countShadowRows(const shared::Light& light);
 
 /// Assign shadow rows to the lights that cast shadows: the suns, then the spots, then the point lights, as
 /// many as fit.
-void assignShadowRows(shared::Lighting& lighting);
+void assignShadowRows(shared::SceneLighting& lighting);
 
 /// Set the rows of a light that has some.
 ///
@@ -98,12 +101,13 @@ void setShadowCasters(const shared::Light& light, uint32_t number, const Box3& s
 /// Return the projections of the lights that have rows, in the order of the rows.
 ///
 /// scene      world bounds of all casters and receivers; if empty nothing casts
-std::vector<ShadowCaster> makeShadowCasters(const shared::Lighting& lighting, const Box3& scene, float near);
+std::vector<ShadowCaster> makeShadowCasters(const shared::SceneLighting& lighting, const Box3& scene,
+                                            float near);
 
 /// Return the number of maps of a frame that has them all, up to shared::kMaxShadowMaps.
 ///
 /// spheres    number of spheres, each of all lights
-uint32_t countShadowMaps(const shared::Lighting& lighting, uint32_t splits, size_t spheres);
+uint32_t countShadowMaps(const shared::SceneLighting& lighting, uint32_t splits, size_t spheres);
 
 /// Shadow maps of a frame. Layers are assigned in the order light, sphere, so unchanged maps keep their
 /// layers.

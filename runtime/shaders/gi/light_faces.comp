@@ -53,12 +53,62 @@ float emissionFactor(vec3 middle)
     return factor;
 }
 
+// Lights that may reach the faces of the workgroup, and the box of their voxels.
+shared uint marks[kMaxLights / 32u];
+shared int box_low[3];
+shared int box_high[3];
+
+// Voxels by which a surface may lie beside the voxel of its face.
+const float kBoxMargin = 2.0;
+
+void beginMarks()
+{
+    for (uint i = gl_LocalInvocationIndex; i < kMaxLights / 32u; i += kGroupFaces)
+        marks[i] = 0u;
+    if (gl_LocalInvocationIndex < 3u)
+    {
+        box_low[gl_LocalInvocationIndex] = 0x7FFFFFFF;
+        box_high[gl_LocalInvocationIndex] = 0;
+    }
+    barrier();
+}
+
+void addToBox(uvec3 voxel)
+{
+    for (uint axis = 0u; axis < 3u; ++axis)
+    {
+        atomicMin(box_low[axis], int(voxel[axis]));
+        atomicMax(box_high[axis], int(voxel[axis]) + 1);
+    }
+}
+
+// Mark the lights whose range meets the box.
+void markLights()
+{
+    BrickGrid grid = brick_view.grid;
+    vec3 low = vec3(box_low[0], box_low[1], box_low[2]) - kBoxMargin;
+    vec3 high = vec3(box_high[0], box_high[1], box_high[2]) + kBoxMargin;
+    for (uint i = gl_LocalInvocationIndex; i < lighting.light_count; i += kGroupFaces)
+    {
+        Light light = lights[i];
+        vec3 place = (light.position - grid.origin) / grid.voxel_size;
+        vec3 off = place - clamp(place, low, high);
+        float reach = light.range / grid.voxel_size;
+        bool is_unranged = light.type == kLightDirectional || light.range <= 0.0;
+        bool is_off = light.intensity == vec3(0.0);
+        if (!is_off && (is_unranged || dot(off, off) <= reach * reach))
+            atomicOr(marks[i >> 5], 1u << (i & 31u));
+    }
+    barrier();
+}
+
 void main()
 {
     uint in_share = (gl_WorkGroupID.x + gl_WorkGroupID.y * kMaxDispatchX) * kGroupFaces + gl_LocalInvocationID.x;
-    if (in_share >= brick_view.slice_faces)
-        return;
-    uint face = bricks[brick_view.first_brick].first_face + in_share;
+    bool is_due = in_share < brick_view.slice_faces;
+    beginMarks();
+    // threads without a face take the last one, since all have to meet the barriers
+    uint face = bricks[brick_view.first_brick].first_face + min(in_share, brick_view.slice_faces - 1u);
     uint number = findBrickOfFace(face);
     uint side = 0u;
     uint rank = face - bricks[number].first_face;
@@ -73,12 +123,19 @@ void main()
     uint x = (place.xy & 0xFFFFu) + (bit & 3u);
     uint y = (place.xy >> 16) + (bit >> 2 & 3u);
     uint z = place.z + (bit >> 4);
+    if (is_due)
+        addToBox(uvec3(x, y, z));
+    barrier();
+    markLights();
+    if (!is_due)
+        return;
 
     BrickGrid grid = brick_view.grid;
     BrickStart start = brickFaceStart(grid, x, y, z, side, brickNormalAt(face), brickFaceSurface(x, y, z, side, brickDepthAt(face)));
     vec3 arrived = brickGather(grid, brickSky(), start, brick_view.light_rays, brickFaceSeed(x, y, z, side));
-    for (uint i = 0u; i < lighting.light_count; ++i)
-        arrived += brickDirect(grid, start, lighting.lights[i]);
+    for (uint word = 0u; word < (lighting.light_count + 31u) / 32u; ++word)
+        for (uint bits = marks[word]; bits != 0u; bits &= bits - 1u)
+            arrived += brickDirect(grid, start, lights[word * 32u + uint(findLSB(bits))]);
     vec3 emission = brickEmissionAt(face) * (lighting.exposure * emissionFactor(vec3(x, y, z) + 0.5));
     fresh_lights[in_share] = encodeBrickLight(brickOutgoingRadiance(emission, brickAlbedoAt(face), arrived));
 }

@@ -16,7 +16,11 @@ layout(set = kSetBricks, binding = kBricksBricks, std430) readonly buffer BrickT
 layout(set = kSetBricks, binding = kBricksOpacity, std430) readonly buffer BrickOpacities { uint brick_opacities[]; };
 layout(set = kSetBricks, binding = kBricksSurfaces, std430) readonly buffer BrickSurfaces { uint brick_surfaces[]; };
 layout(set = kSetBricks, binding = kBricksLight, std430) readonly buffer BrickLighting { BrickLight brick_lights[]; };
-layout(set = kSetBricks, binding = kBricksLighting, std140) readonly buffer LightingBlock { Lighting lighting; };
+layout(set = kSetBricks, binding = kBricksLighting, std140) readonly buffer LightingBlock
+{
+    Lighting lighting;
+    Light lights[];
+};
 
 BrickGroup brickGroupAt(BrickGrid grid, uint group) { return brick_groups[group]; }
 Brick brickAt(BrickGrid grid, uint brick) { return bricks[brick]; }

@@ -3,11 +3,19 @@
 #include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/occluder_light.h"
 
-layout(set = kSetScene, binding = kSceneLighting, std140) readonly buffer LightingBlock
+#ifndef HEARTH_LIGHTING_SET
+#define HEARTH_LIGHTING_SET kSetScene
+#define HEARTH_LIGHTING_BINDING kSceneLighting
+#endif
+
+// one buffer in three views
+layout(set = HEARTH_LIGHTING_SET, binding = HEARTH_LIGHTING_BINDING, std140) readonly buffer LightingBlock
 {
     Lighting lighting;
-    uvec4 surroundings[]; // rows as in formats/gpu_shared/occluder_light.h
+    Light lights[];
 };
+layout(set = HEARTH_LIGHTING_SET, binding = HEARTH_LIGHTING_BINDING, std430) readonly buffer LightRows { uvec4 light_rows[]; };
+layout(set = HEARTH_LIGHTING_SET, binding = HEARTH_LIGHTING_BINDING, std430) readonly buffer LightWords { uint light_words[]; };
 
 const OccluderLight kNoOccluderLight = OccluderLight(vec4(0.0), vec4(0.0), vec4(0.0));
 
@@ -16,12 +24,12 @@ OccluderLight occluderLight(uint instance)
 {
     if (lighting.surroundings_row == kNoSurroundings)
         return kNoOccluderLight;
-    uint transfer = surroundings[lighting.surroundings_row + instance].x;
+    uint transfer = light_rows[lighting.surroundings_row + instance].x;
     if (transfer == kNoTransfer)
         return kNoOccluderLight;
-    uint row = transfer * kOccluderLightRows;
-    return OccluderLight(uintBitsToFloat(surroundings[row]), uintBitsToFloat(surroundings[row + 1u]),
-                         uintBitsToFloat(surroundings[row + 2u]));
+    uint row = lighting.transfers_row + transfer * kOccluderLightRows;
+    return OccluderLight(uintBitsToFloat(light_rows[row]), uintBitsToFloat(light_rows[row + 1u]),
+                         uintBitsToFloat(light_rows[row + 2u]));
 }
 
 // Factor of the visibility of an instance's mesh: terms of the direction, and 1.
@@ -29,6 +37,6 @@ vec4 instanceVisibility(uint instance)
 {
     if (lighting.surroundings_row == kNoSurroundings)
         return vec4(0.0, 0.0, 0.0, 1.0);
-    uvec4 row = surroundings[lighting.surroundings_row + instance];
+    uvec4 row = light_rows[lighting.surroundings_row + instance];
     return vec4(unpackHalf2x16(row.y), unpackHalf2x16(row.z));
 }

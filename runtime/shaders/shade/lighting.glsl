@@ -9,41 +9,13 @@
 #include "runtime/shaders/scene/light_block.glsl"
 #include "runtime/shaders/shade/brdf.glsl"
 #include "runtime/shaders/shade/layers.glsl"
+#include "runtime/shaders/shade/light_irradiance.glsl"
+#include "runtime/shaders/shade/light_list.glsl"
 #include "runtime/shaders/shade/sky.glsl"
 #include "runtime/shaders/shade/tonemap.glsl"
 #include "runtime/shaders/shade/sky_occlusion.glsl"
 
 layout(constant_id = kConstantUnlit) const bool kUnlit = false;
-
-// Intensity that what surrounds a lamp adds to the lamp's, as a share. from_lamp: unit.
-vec3 reflectedShare(Light light, vec3 from_lamp);
-
-// Irradiance of a light on a surface that faces it, and the direction to the light. KHR_lights_punctual.
-vec3 lightIrradiance(Light light, vec3 position, out vec3 to_light)
-{
-    if (light.type == kLightDirectional)
-    {
-        to_light = -light.direction;
-        return light.intensity;
-    }
-    vec3 offset = (light.position - view.eye) - position;
-    float distance2 = max(dot(offset, offset), 1e-8);
-    to_light = offset * inversesqrt(distance2);
-    float attenuation = 1.0 / distance2;
-    if (light.range > 0.0)
-    {
-        float ratio2 = distance2 / (light.range * light.range);
-        attenuation *= clamp(1.0 - ratio2 * ratio2, 0.0, 1.0);
-    }
-    vec3 share = vec3(1.0);
-    if (light.type == kLightSpot)
-    {
-        mediump float cone = clamp(dot(light.direction, -to_light) * light.cone_scale + light.cone_offset, 0.0, 1.0);
-        share = vec3(cone * cone);
-    }
-    share += reflectedShare(light, -to_light);
-    return light.intensity * share * attenuation;
-}
 
 // Radiance towards the eye from everything except the lights. occlusion: value of the material's occlusion
 // texture.
@@ -65,11 +37,13 @@ vec3 lit(SurfacePoint point, SurfaceUvs uvs, mediump vec3 base)
     Layers layers = surfaceLayers(point, uvs, shading);
 
     vec3 radiance = vec3(0.0);
-    for (uint i = 0u; i < lighting.light_count; ++i)
+    LightListing listing = findLights(point.position, gl_FragCoord.xy);
+    for (uint i = 0u; i < listing.count; ++i)
     {
+        uint row = listedLight(listing, i);
         vec3 to_light;
-        vec3 irradiance = lightIrradiance(lighting.lights[i], point.position, to_light);
-        float share = lightVisibility(lighting.lights[i], point.position, point.flat_normal, point.error);
+        vec3 irradiance = lightIrradiance(lights[row], point.position, to_light);
+        float share = lightVisibility(lights[row], point.position, point.flat_normal, point.error);
         radiance += irradiance * layeredLight(shading, layers, to_light) * share;
     }
 

@@ -36,7 +36,7 @@ void main()
     vec3 color = vec3(0.3);
     for (uint i = lighting.light_count; i-- > 0u;)
     {
-        ShadowLookup at = findShadowMap(lighting.lights[i], s.position, normal, surfaceError(s));
+        ShadowLookup at = findShadowMap(lights[i], s.position, normal, surfaceError(s));
         if (at.map != kNoShadow)
             color = mapColor(at.map) * (0.2 + 0.8 * filterShadow(at, normal, surfaceError(s)));
     }

@@ -14,6 +14,7 @@
 #include "runtime/shaders/scene/material_test.glsl"
 #include "runtime/shaders/shade/tonemap.glsl"
 #include "runtime/shaders/shade/sky_occlusion.glsl"
+#include "runtime/shaders/shade/light_list.glsl"
 
 layout(early_fragment_tests) in;
 layout(location = 0) out vec4 out_color;
@@ -40,6 +41,26 @@ vec3 boneColor(Surface s)
     if (!isDeformed(s))
         return vec3(0.4);
     return hashColor(loadDeformedCluster(loadPose(s.pose.row), s.slot.cluster).joint + 1u);
+}
+
+// From black for none over blue for 1, green for 4, yellow for 8 and red for 16 to white for 32 and more.
+vec3 countColor(uint count)
+{
+    const vec3 colors[] = vec3[](vec3(0.0), vec3(0.1, 0.1, 0.5), vec3(0.1, 0.4, 0.7), vec3(0.1, 0.7, 0.3), vec3(0.9, 0.8, 0.1), vec3(0.9, 0.15, 0.1), vec3(1.0));
+    float at = min(log2(float(count) + 1.0) * 1.2, 5.999);
+    uint color = uint(at);
+    return mix(colors[color], colors[color + 1u], at - float(color));
+}
+
+vec3 lightColor(Surface s)
+{
+    if (push.debug_view == kViewLightCount)
+    {
+        LightListing listing = findLights(s.position, gl_FragCoord.xy);
+        return countColor(listing.count - listing.unranged_count);
+    }
+    float depth = dot(view.clip_w.xyz, s.position);
+    return hashColor(lightCellAt(lighting.cascades[lightCascadeAt(depth)], gl_FragCoord.x, gl_FragCoord.y, depth));
 }
 
 bool isSkyView(uint debug_view)
@@ -89,6 +110,8 @@ void main()
         color = facing * boneColor(s);
     else if (isSkyView(push.debug_view))
         color = skyVisibilityColor(s);
+    else if (push.debug_view == kViewLightCount || push.debug_view == kViewLightCells)
+        color = (0.5 + 0.5 * facing) * lightColor(s);
     else if (push.debug_view == kViewNormals)
         color = shadingNormal(surfacePoint(s), surfaceUvs(s)) * 0.5 + 0.5;
     else

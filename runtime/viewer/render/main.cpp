@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/base/program.h"
 #include "runtime/gpu/frame/frame_text.h"
+#include "runtime/gpu/lights/light_statistics_pass.h"
 #include "runtime/gpu/passes/cull_statistics_pass.h"
 #include "runtime/pack/pack.h"
 #include "runtime/viewer/animation.h"
@@ -92,9 +93,9 @@ void warnAboutShadows(const ShadowCounts& counts, const std::string& name)
 void warnAboutMissing(uint64_t clusters, const std::string& name)
 {
     if (clusters > 0)
-        printError({Issue::degraded, name, "",
-                    std::to_string(clusters) +
-                        " clusters come into view and are drawn late (--cull last-frame)"});
+        printError(
+            {Issue::degraded, name, "",
+             std::to_string(clusters) + " clusters come into view and are drawn late (--cull last-frame)"});
 }
 
 /// Times that the first frame gathers indirect light; later frames have its result as their history.
@@ -204,6 +205,8 @@ public:
                                     countStreaming(host_, renderer_, scene_, serial_));
             streaming_.push_back(counts);
         }
+        if (!options_.stats.empty())
+            HEARTH_TRY(countLights());
         if (!options_.stats.empty() && scene_.deformation != nullptr)
         {
             HEARTH_ASSIGN_OR_RETURN(skinning_, readSkinning(host_, renderer_, scene_));
@@ -247,6 +250,7 @@ public:
             .shadows = shadows_,
             .skinning = skinning_,
             .bricks = scene_.bricks == nullptr ? std::nullopt : std::optional(countBricks(scene_, targets_)),
+            .lights = lights_,
             .milliseconds = medianPassTimes(times_)};
         const std::string text = formatReport(report, pack_);
         return writeFile(options_.stats, std::as_bytes(std::span(text)));
@@ -306,6 +310,23 @@ private:
         return success();
     }
 
+    /// Count the lights of the last frame.
+    Status countLights()
+    {
+        const gpu::Device& device = renderer_.device();
+        HEARTH_ASSIGN_OR_RETURN(
+            const gpu::LightStatisticsPass pass,
+            gpu::LightStatisticsPass::create(device, renderer_.layouts(), scene_, targets_));
+        HEARTH_TRY(host_.run(
+            [&](VkCommandBuffer commands)
+            {
+                pass.record(device, commands, scene_, targets_, settings_.light_method);
+                return success();
+            }));
+        lights_ = {settings_.light_method, gpu::readLightCounts(scene_)};
+        return success();
+    }
+
     /// Count what the last frame left out because an earlier one hid it.
     Status countMissing()
     {
@@ -348,6 +369,7 @@ private:
     std::vector<StreamCounts> streaming_;
     std::vector<ShadowCounts> shadows_;
     std::optional<SkinningCounts> skinning_;
+    LightCounts lights_;
     uint64_t serial_ = 0; ///< of the last frame
 };
 
@@ -520,13 +542,15 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
             return success();
         }));
     scene->staging.reset();
+    HEARTH_TRY(renderer->prepareLightMethod(*scene, options.settings.light_method));
 
     const uint32_t scale = makeSampleGrid(options.samples).scale;
     HEARTH_ASSIGN_OR_RETURN(
         gpu::FrameTargets targets,
-        renderer->createTargets({(sheet ? sheet->layout.cell_width : options.width) * scale,
-                                 (sheet ? sheet->layout.cell_height : options.height) * scale},
-                                targetOptions(options.settings, *scene, !options.visibility.empty())));
+        renderer->createTargets(
+            {(sheet ? sheet->layout.cell_width : options.width) * scale,
+             (sheet ? sheet->layout.cell_height : options.height) * scale},
+            targetOptions(options.settings, *scene, !options.visibility.empty() || !options.stats.empty())));
     if (options.passes != PassesFormat::none)
     {
         printPasses(options, *renderer, *scene, targets, images.cameras.front());

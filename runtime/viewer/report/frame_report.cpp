@@ -166,6 +166,24 @@ uint64_t countTriangles(const formats::PackView& pack, std::span<const shared::V
     return triangles;
 }
 
+namespace
+{
+
+std::string formatLights(const LightCounts& lights)
+{
+    const shared::LightListCounts& c = lights.counts;
+    const auto join = [](uint32_t low, uint32_t high) { return std::to_string(uint64_t{high} << 32 | low); };
+    return "{\"method\":" + quotedJson(std::string(gpu::lightMethodFacts(lights.method).name)) +
+           ",\"unranged\":" + std::to_string(c.unranged) + ",\"ranged\":" + std::to_string(c.ranged) +
+           ",\"cells\":" + std::to_string(c.cells) + ",\"indices\":" + std::to_string(c.indices) +
+           ",\"overflows\":" + std::to_string(c.overflows) + ",\"pixels\":" + std::to_string(c.pixels) +
+           ",\"evaluated\":" + join(c.evaluated_low, c.evaluated_high) +
+           ",\"reaching\":" + join(c.reaching_low, c.reaching_high) +
+           ",\"longest\":" + std::to_string(c.longest) + "}";
+}
+
+} // namespace
+
 std::string formatReport(const FrameReport& report, const formats::PackView& pack)
 {
     uint64_t source_triangles = 0;
@@ -190,6 +208,7 @@ std::string formatReport(const FrameReport& report, const formats::PackView& pac
         add(name, std::to_string(count));
     add("culling", formatCullReport(report.frames.back().culling));
     add("dropped_lights", std::to_string(report.dropped_lights));
+    add("lights", formatLights(report.lights));
     add("scene_bytes", std::to_string(report.scene_bytes));
     add("target_bytes", std::to_string(report.target_bytes));
     add("memory", formatMemoryJson(report.memory));

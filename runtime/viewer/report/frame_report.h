@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "runtime/gpu/lights/light_method.h"
 #include "runtime/viewer/contact_sheet.h"
 #include "runtime/viewer/report/cull_report.h"
 #include "runtime/viewer/report/memory_report.h"
@@ -56,6 +57,13 @@ struct FrameCounts
     CullReport culling;
 };
 
+/// Lights of the last frame, and what its pixels evaluate.
+struct LightCounts
+{
+    gpu::LightMethod method = gpu::LightMethod::practical;
+    shared::LightListCounts counts{};
+};
+
 struct FrameReport
 {
     std::string device;
@@ -70,6 +78,7 @@ struct FrameReport
     std::vector<ShadowCounts> shadows;      ///< per frame; empty without shadows
     std::optional<SkinningCounts> skinning; ///< of the last frame; none without characters
     std::optional<BrickCounts> bricks;      ///< of the last frame; none without bricks
+    LightCounts lights;
     /// Time of the pass that ends with the timestamp; [0] is the whole frame.
     std::array<double, gpu::kTimestampCount> milliseconds{};
 };

@@ -29,7 +29,7 @@ float lightAt(const BrickTables& tables, Float3 position, Sky sky = {})
 {
     const BrickView view = makeBrickView(tables);
     FaceLighting lighting(view);
-    Lighting dark{};
+    SceneLighting dark{};
     dark.exposure = 1;
     lighting.sweep(dark, 1, 1);
     const BrickStart start = brickVisibleStart(lighting.scene(), position, {0, 0, 1}, {0, -2, 10});

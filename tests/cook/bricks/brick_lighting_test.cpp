@@ -41,7 +41,7 @@ TEST_P(Furnace, goesToEmissionOverOneLessAlbedo)
         const Room room(shape.inside, makeVoxel({albedo, albedo, albedo}, emission), shape.voxel_size);
         const BrickView view = makeBrickView(room.tables);
         FaceLighting lighting(view);
-        Lighting outside = constantSky({5, 5, 5});
+        SceneLighting outside = constantSky({5, 5, 5});
         addSun(outside, {1, -2, 0.5f}, {30, 30, 30});
         lighting.sweep(outside, 16, sweepsToDecay(albedo, 1e-3f));
         const float exact = decodeAlbedo(encodeAlbedo({albedo, albedo, albedo})).x;
@@ -80,7 +80,7 @@ TEST(BrickLight, emissionFollowsTheExposure)
     const Room room({3, 3, 3}, makeVoxel({0, 0, 0}, {4, 8, 16}));
     const BrickView view = makeBrickView(room.tables);
     FaceLighting lighting(view);
-    Lighting dimmed = darkness();
+    SceneLighting dimmed = darkness();
     dimmed.exposure = 0.25f;
     lighting.sweep(dimmed, 4, 1);
     for (const LitFace& position : room.inner)
@@ -103,7 +103,7 @@ TEST(FaceLighting, aSealedRoomIsExactlyDark)
         const Room room({3 + static_cast<uint32_t>(i), 4, 2}, wall, 0.5f);
         const BrickView view = makeBrickView(room.tables);
         FaceLighting lighting(view);
-        Lighting outside = constantSky({3, 4, 5});
+        SceneLighting outside = constantSky({3, 4, 5});
         for (int sun = 0; sun < 20; ++sun)
             addSun(outside, {number(random), number(random), number(random)}, {50, 40, 30});
         addSun(outside, {0, -1, 0}, {50, 40, 30});
@@ -142,7 +142,7 @@ TEST_P(Decay, isBelowOneHundredthInTheStatedFrames)
     const Room room({4, 3, 4}, makeVoxel({albedo, albedo, albedo}));
     const BrickView view = makeBrickView(room.tables);
     FaceLighting lighting(view);
-    Lighting lit = darkness();
+    SceneLighting lit = darkness();
     addLamp(lit, {0.6f, 8.4f, 3.3f}, {40, 30, 20});
     const uint32_t sweeps = sweepsToDecay(albedo, 0.01f);
     // lit until nothing changes; the frames after that begin in the middle of a period
@@ -198,7 +198,7 @@ TEST(FaceLighting, sunOnAPlaneIsItsCosine)
     const float albedo = decodeAlbedo(tables.albedo[0]).x;
     const BrickView view = makeBrickView(tables);
     FaceLighting lighting(view);
-    Lighting sun = darkness();
+    SceneLighting sun = darkness();
     addSun(sun, {0.3f, -0.8f, 0.4f}, {3, 2, 1});
     lighting.sweep(sun, 4, 1);
     const float cosine = -sun.lights[0].direction.y;
@@ -217,7 +217,7 @@ TEST(FaceLighting, whatIsNotOpaqueStopsItsShare)
     const float albedo = decodeAlbedo(tables.albedo[faceAt(tables, 4, 0, 4, kUp)]).x;
     const BrickView view = makeBrickView(tables);
     FaceLighting lighting(view);
-    Lighting sun = darkness();
+    SceneLighting sun = darkness();
     addSun(sun, {0, -1, 0}, {1, 1, 1});
     lighting.sweep(sun, 4, 1);
     expectRelative(computeRadiance(lighting, faceAt(tables, 4, 0, 4, kUp)),
@@ -235,7 +235,7 @@ TEST(FaceLighting, aLampOverAPlaneFollowsTheInverseSquare)
     const float albedo = decodeAlbedo(tables.albedo[0]).x;
     const BrickView view = makeBrickView(tables);
     FaceLighting lighting(view);
-    Lighting lit = darkness();
+    SceneLighting lit = darkness();
     const Float3 lamp{4, 2.3f, 4};
     addLamp(lit, lamp, {5, 5, 5}, 6);
     lighting.sweep(lit, 4, 1);
@@ -268,7 +268,7 @@ TEST(FaceLighting, aLampInsideItsOwnVoxelIsSeen)
     const BrickTables tables = model.build();
     const BrickView view = makeBrickView(tables);
     FaceLighting lighting(view);
-    Lighting lit = darkness();
+    SceneLighting lit = darkness();
     addLamp(lit, {5.5f, 8.1f, 5.5f}, {5, 5, 5});
     lighting.sweep(lit, 4, 1);
     for (uint32_t x = 0; x < 11; ++x)
@@ -292,7 +292,7 @@ TEST(FaceLighting, aLampBesideASlopeLightsThePlaneNotItsSteps)
     const BrickTables tables = model.build();
     const BrickView view = makeBrickView(tables);
     FaceLighting lighting(view);
-    Lighting lit = darkness();
+    SceneLighting lit = darkness();
     constexpr float kAway = 3;
     const Float3 foot{12.5f, 12.5f, 12.5f}, lamp = foot + normal * kAway;
     addLamp(lit, lamp, {5, 5, 5});
@@ -319,7 +319,7 @@ TEST(FaceLighting, aShadeNearALampIsLitAtItsDepth)
         const BrickTables tables = model.build();
         const BrickView view = makeBrickView(tables);
         FaceLighting lighting(view);
-        Lighting lit = darkness();
+        SceneLighting lit = darkness();
         // 0.15 m above the upper side of the voxels
         addLamp(lit, Float3{3.5f, 2.5f, 3.5f} * kVoxelSize, {5, 5, 5});
         lighting.sweep(lit, 4, 1);
@@ -344,7 +344,7 @@ TEST(FaceLighting, aSlopeIsNotLitAsAStaircase)
     const BrickTables tables = model.build();
     const BrickView view = makeBrickView(tables);
     FaceLighting lighting(view);
-    Lighting sun = darkness();
+    SceneLighting sun = darkness();
     addSun(sun, {0.2f, -1, 0.1f}, {2, 2, 2});
     lighting.sweep(sun, 16, 1);
     const float expected = 2 * 0.5f / kPi * -dot(normal, sun.lights[0].direction);
@@ -360,7 +360,7 @@ TEST(FaceLighting, spotsEndAtTheirCone)
     const float albedo = decodeAlbedo(tables.albedo[0]).x;
     const BrickView view = makeBrickView(tables);
     FaceLighting lighting(view);
-    Lighting lit = darkness();
+    SceneLighting lit = darkness();
     addLamp(lit, {10.5f, 11, 10.5f}, {100, 100, 100});
     Light& spot = lit.lights[0];
     spot.type = kLightSpot;
@@ -428,7 +428,7 @@ TEST(FaceLighting, aRedWallReddensTheFloorBesideIt)
     const BrickTables tables = model.build();
     const BrickView view = makeBrickView(tables);
     FaceLighting lighting(view);
-    Lighting sun = darkness();
+    SceneLighting sun = darkness();
     addSun(sun, {-1, -1, 0}, {3, 3, 3});
     lighting.sweep(sun, 64, 4);
     const auto redness = [&](uint32_t x)
@@ -447,7 +447,7 @@ TEST(FaceLighting, isTheSameForAnyNumberOfThreads)
 {
     const Room room({9, 7, 11}, makeVoxel({0.6f, 0.5f, 0.4f}, {0.1f, 0, 0.2f}));
     const BrickView view = makeBrickView(room.tables);
-    Lighting lit = constantSky({1, 2, 3});
+    SceneLighting lit = constantSky({1, 2, 3});
     addLamp(lit, {1, 9, 6}, {9, 9, 9});
     const auto run = [&](size_t threads)
     {

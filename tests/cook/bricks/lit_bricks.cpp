@@ -10,31 +10,29 @@ namespace hearth::bricks
 
 using namespace shared;
 
-Lighting darkness()
+SceneLighting darkness()
 {
-    Lighting lighting{};
-    lighting.exposure = 1;
+    return {.sky = {}, .lights = {}};
+}
+
+SceneLighting constantSky(Float3 radiance)
+{
+    SceneLighting lighting = darkness();
+    lighting.sky = {radiance, radiance, radiance};
     return lighting;
 }
 
-Lighting constantSky(Float3 radiance)
+void addSun(SceneLighting& lighting, Float3 direction, Float3 illuminance)
 {
-    Lighting lighting = darkness();
-    lighting.sky_zenith = lighting.sky_horizon = lighting.sky_ground = radiance;
-    return lighting;
-}
-
-void addSun(Lighting& lighting, Float3 direction, Float3 illuminance)
-{
-    Light& sun = lighting.lights[lighting.light_count++];
+    Light& sun = lighting.lights.emplace_back();
     sun.type = kLightDirectional;
     sun.direction = direction / length(direction);
     sun.intensity = illuminance;
 }
 
-void addLamp(Lighting& lighting, Float3 position, Float3 candela, float range)
+void addLamp(SceneLighting& lighting, Float3 position, Float3 candela, float range)
 {
-    Light& lamp = lighting.lights[lighting.light_count++];
+    Light& lamp = lighting.lights.emplace_back();
     lamp.type = 1;
     lamp.position = position;
     lamp.intensity = candela;

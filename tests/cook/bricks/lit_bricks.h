@@ -11,11 +11,11 @@
 namespace hearth::bricks
 {
 
-shared::Lighting darkness();
-shared::Lighting constantSky(Float3 radiance);
-void addSun(shared::Lighting& lighting, Float3 direction, Float3 illuminance);
+shared::SceneLighting darkness();
+shared::SceneLighting constantSky(Float3 radiance);
+void addSun(shared::SceneLighting& lighting, Float3 direction, Float3 illuminance);
 /// position  in metres
-void addLamp(shared::Lighting& lighting, Float3 position, Float3 candela, float range = 0);
+void addLamp(shared::SceneLighting& lighting, Float3 position, Float3 candela, float range = 0);
 
 struct LitFace
 {

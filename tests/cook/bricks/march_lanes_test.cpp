@@ -137,11 +137,8 @@ TEST(FaceLighting, gathersAsRaysDoOneByOne)
         light = encodeRadiance({static_cast<float>(random() % 64), 1, 2});
     const BrickView view{model.masks(), model.opacity,  model.albedo,
                          model.normals, model.emission, model.lighting};
-    Lighting lighting{};
-    lighting.exposure = 1;
-    lighting.sky_zenith = {1, 2, 3};
-    lighting.sky_horizon = {3, 2, 1};
-    const Sky sky{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground};
+    const Sky sky{.zenith = {1, 2, 3}, .horizon = {3, 2, 1}, .ground = {}};
+    const SceneLighting lighting{.sky = sky, .lights = {}};
     for (const uint32_t rays : {1u, 16u, 300u})
     {
         FaceLighting lit(view);

@@ -59,7 +59,7 @@ protected:
 
     test::Sandbox folder_;
     std::vector<formats::ReflectorRecord> records_;
-    shared::Lighting lighting_;
+    shared::SceneLighting lighting_;
 };
 
 TEST_F(Reflectors, ofADullDomeAreThoseOfItsOpening)

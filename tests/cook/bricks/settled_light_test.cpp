@@ -91,7 +91,7 @@ TEST_F(SettledLightTest, isThatOfAFurnace)
 TEST_F(SettledLightTest, isWhatSweepsOfTheRuntimeComeTo)
 {
     cook("Kd 0.8 0.6 0.4\nKe 0.1 0.2 0.3\n");
-    const shared::Lighting lighting = makeSceneLighting(*scene_);
+    const shared::SceneLighting lighting = makeSceneLighting(*scene_);
     const std::vector<uint32_t> codes = settled();
     FaceLighting from_darkness(makeBrickView(grid_->tables));
     from_darkness.sweep(lighting, 16, 60);

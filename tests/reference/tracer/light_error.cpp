@@ -117,16 +117,15 @@ std::vector<LitPoint> litPoints(const ShadedScene& scene, const std::vector<Seen
     return lit;
 }
 
-shared::Lighting sharedLighting(const SceneLighting& lighting)
+shared::SceneLighting sharedLighting(const SceneLighting& lighting)
 {
-    shared::Lighting result{};
-    result.sky_zenith = narrowed(lighting.zenith);
-    result.sky_horizon = narrowed(lighting.horizon);
-    result.sky_ground = narrowed(lighting.ground);
-    result.exposure = static_cast<float>(lighting.exposure);
+    shared::SceneLighting result{
+        .sky = {narrowed(lighting.zenith), narrowed(lighting.horizon), narrowed(lighting.ground)},
+        .exposure = static_cast<float>(lighting.exposure),
+        .lights = {}};
     for (const SceneLight& light : lighting.lights)
     {
-        shared::Light& l = result.lights[result.light_count++];
+        shared::Light& l = result.lights.emplace_back();
         l.type = static_cast<uint32_t>(light.type);
         l.position = narrowed(light.position);
         l.direction = narrowed(light.direction);
@@ -138,8 +137,9 @@ shared::Lighting sharedLighting(const SceneLighting& lighting)
     return result;
 }
 
-BrickGather::BrickGather(const bricks::BrickView& bricks, const shared::Lighting& lighting, uint32_t rays)
-    : faces_(bricks), sky_{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground}
+BrickGather::BrickGather(const bricks::BrickView& bricks, const shared::SceneLighting& lighting,
+                         uint32_t rays)
+    : faces_(bricks), sky_(lighting.sky)
 {
     double before = -1, light = 0;
     for (uint32_t i = 0; i < kMaxSweeps && std::abs(light - before) > kSettledChange * light; ++i)

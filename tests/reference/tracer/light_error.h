@@ -39,7 +39,7 @@ std::vector<LitPoint> litPoints(const ShadedScene& scene, const std::vector<Seen
                                 uint32_t paths);
 
 /// Lights and sky of the reference in the form that shaders take.
-shared::Lighting sharedLighting(const SceneLighting& lighting);
+shared::SceneLighting sharedLighting(const SceneLighting& lighting);
 
 /// Light of the bricks, swept until it hardly changes, and the gather from it.
 class BrickGather
@@ -47,7 +47,7 @@ class BrickGather
 public:
     /// bricks  tables must outlive the object
     /// rays    for each face
-    BrickGather(const bricks::BrickView& bricks, const shared::Lighting& lighting, uint32_t rays);
+    BrickGather(const bricks::BrickView& bricks, const shared::SceneLighting& lighting, uint32_t rays);
 
     /// Irradiance over pi from all but the lights, gathered as in the runtime. rays  for the point
     Double3 at(const SeenPoint& point, uint32_t rays, uint32_t seed) const;

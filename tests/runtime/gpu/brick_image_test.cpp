@@ -144,10 +144,10 @@ TEST_F(BrickImageTest, gathersWhatTheCpuGathers)
 {
     load();
     settled({}, 40);
-    const Lighting lighting = gpu::makeLighting(*pack_);
+    const SceneLighting lighting = gpu::makeLighting(*pack_);
     bricks::FaceLighting solver(makeBrickView(model_));
     solver.sweep(lighting, scene_->bricks->rays, 24);
-    const Sky sky{lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground};
+    const Sky sky = lighting.sky;
     const BrickScene scene = solver.scene();
     const Float3 eye{2, 3, 7};
     const std::vector<GatherPoint> gathered = points();

@@ -130,7 +130,7 @@ protected:
     BrickModel model_;
     TestScene test_;
     std::optional<formats::PackView> pack_;
-    shared::Lighting lighting_{};
+    shared::SceneLighting lighting_{};
     std::unique_ptr<gpu::Scene> scene_;
     std::optional<gpu::FrameTargets> targets_;
 };
@@ -366,9 +366,11 @@ TEST_F(BrickLightTest, changesOfLightsAreChecked)
 {
     test_.addLight(sun({0, -1, 0}));
     load(brickModel({4, 4, 4}, makeShell({4, 4, 4}), colourful));
-    EXPECT_EQ(gpu::changeLight(*scene_, 1, sun({0, -1, 0})).error().issue, Issue::usage);
-    EXPECT_EQ(gpu::changeLight(*scene_, 0, light(formats::LightType::point, {}, {0, -1, 0}, 1)).error().issue,
-              Issue::usage);
+    EXPECT_EQ(gpu::changeLight(*scene_, 128, sun({0, -1, 0})).error().issue, Issue::usage);
+    formats::LightRecord other = sun({0, -1, 0});
+    other.type = 3;
+    EXPECT_EQ(gpu::changeLight(*scene_, 0, other).error().issue, Issue::usage);
+    EXPECT_TRUE(gpu::changeLight(*scene_, 0, light(formats::LightType::point, {}, {0, -1, 0}, 1)).ok());
     formats::LightRecord endless = sun({0, -1, 0});
     endless.intensity = std::numeric_limits<float>::infinity();
     EXPECT_EQ(gpu::changeLight(*scene_, 0, endless).error().issue, Issue::usage);

@@ -435,7 +435,7 @@ TEST_F(CallerTest, itIsToldWhatIsDegraded)
         test_.addLight({});
     (void)drawOnce(device);
     ASSERT_EQ(messages.size(), 1u);
-    EXPECT_THAT(messages[0], testing::HasSubstr("2 lights are more than the 128"));
+    EXPECT_THAT(messages[0], testing::HasSubstr("2 lights are more than the 4096"));
 }
 
 } // namespace hearth::test

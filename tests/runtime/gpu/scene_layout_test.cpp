@@ -227,8 +227,8 @@ TEST(InstanceInverse, saysSoWhereThereIsNone)
 TEST(SceneLighting, aSceneWithoutLightsGetsOneSun)
 {
     TestScene test;
-    const shared::Lighting lighting = gpu::makeLighting(test.build());
-    EXPECT_EQ(lighting.light_count, 1u);
+    const shared::SceneLighting lighting = gpu::makeLighting(test.build());
+    EXPECT_EQ(lighting.lights.size(), 1u);
     EXPECT_LT(lighting.lights[0].direction.y, 0);
 }
 
@@ -254,7 +254,7 @@ TEST(SceneLighting, moreLightsThanFitAreLeftOut)
     lamp.color = {1, 1, 1};
     for (uint32_t i = 0; i < shared::kMaxLights + 3; ++i)
         test.addLight(lamp);
-    EXPECT_EQ(gpu::makeLighting(test.build()).light_count, shared::kMaxLights);
+    EXPECT_EQ(gpu::makeLighting(test.build()).lights.size(), shared::kMaxLights);
 }
 
 } // namespace hearth::test

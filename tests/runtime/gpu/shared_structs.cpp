@@ -5,6 +5,7 @@
 #include "formats/gpu_shared/brick_view.h"
 #include "formats/gpu_shared/cull_statistics.h"
 #include "formats/gpu_shared/gather.h"
+#include "formats/gpu_shared/light_cells.h"
 #include "formats/gpu_shared/material_tiles.h"
 #include "formats/gpu_shared/push_constants.h"
 #include "formats/gpu_shared/shading.h"
@@ -54,7 +55,8 @@ HEARTH_TYPE(int32_t, "int");
 HEARTH_TYPE(float, "float");
 HEARTH_TYPE(Float3, "float3");
 HEARTH_TYPE(Float4, "float4");
-HEARTH_TYPE(shared::Light, "Light");
+HEARTH_TYPE(shared::LightGrid, "LightGrid");
+HEARTH_TYPE(shared::LightCascade, "LightCascade");
 HEARTH_TYPE(shared::ShadowLight, "ShadowLight");
 HEARTH_TYPE(shared::ShadowMap, "ShadowMap");
 HEARTH_TYPE(shared::BrickGrid, "BrickGrid");
@@ -82,6 +84,7 @@ std::vector<SharedStruct> pushStructs()
         HEARTH_STRUCT(SkinningPlanPush, bin_count, first_bin, phase),
         HEARTH_STRUCT(PyramidPush, width, height),
         HEARTH_STRUCT(TilesPush, width, height, draw_count),
+        HEARTH_STRUCT(LightCellsPush, writes),
         HEARTH_STRUCT(BinPush, bin, light_row, map_index, facing),
         HEARTH_STRUCT(ShadingPush, depth, material, debug_view, depth_scale, sky_occlusion),
     };
@@ -131,7 +134,14 @@ std::vector<SharedStruct> frameStructs()
                       reflector_gain, reflector_axis, reflected0, reflected1, reflected2, reflected3, passed0,
                       passed1, passed2, passed3),
         HEARTH_STRUCT(Lighting, sky_zenith, light_count, sky_horizon, exposure, sky_ground, surroundings_row,
-                      lights),
+                      transfers_row, first_list_word, first_cell_word, first_index_word, index_words,
+                      reserved0, reserved1, reserved2, grid, cascades),
+        HEARTH_STRUCT(LightGrid, right, z_near, down, slack_share, forward, slack_size, eye, is_orthographic,
+                      edges, edge_lengths, slab_count, cell_count, max_columns, max_rows),
+        HEARTH_STRUCT(LightCascade, begin, slab_depth, slabs_per_m, cells_per_pixel, column_step,
+                      columns_per_u, row_step, rows_per_v, first_slab, slabs, rows, columns, first_cell,
+                      reserved0, reserved1, reserved2),
+        HEARTH_STRUCT(CellLight, center, radius, apex, range, axis, cosine, sine, slack, light, slabs),
         HEARTH_STRUCT(ShadowLight, right, depth_scale, down, depth_offset, direction, perspective, origin,
                       depth_step, rounding, first_map, map_count, depth_quantum),
         HEARTH_STRUCT(ShadowMap, scale_x, scale_y, offset_x, offset_y, size, kernel, density, layer),

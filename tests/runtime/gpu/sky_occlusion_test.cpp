@@ -447,7 +447,7 @@ protected:
 TEST_F(SurroundingsTest, standsInForTheSkyThatIsOccluded)
 {
     const reference::SceneLighting lighting = reference::readLighting(*pack_);
-    const std::vector<OccluderLight> occluders = makeOccluderLights(scene_->lights[0]);
+    const std::vector<OccluderLight> occluders = makeOccluderLights(scene_->lights->lights()[0]);
     for (const auto& [ambient, specular] : {std::pair{kAmbientOcclusionExact, kSpecularOcclusionFit},
                                             std::pair{kAmbientOcclusionSmoothstep, kSpecularOcclusionOff},
                                             std::pair{kAmbientOcclusionOff, kSpecularOcclusionFit},

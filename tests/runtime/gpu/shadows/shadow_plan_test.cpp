@@ -17,12 +17,12 @@ using gpu::ShadowSphere;
 constexpr Box3 kScene{{-10, 0, -10}, {10, 5, 10}};
 
 /// Lights that all shine straight down; spots at 4 m with 45 degrees to each side, and lamps there.
-shared::Lighting makeLights(std::initializer_list<LightType> types)
+shared::SceneLighting makeLights(std::initializer_list<LightType> types)
 {
-    shared::Lighting lighting{};
+    shared::SceneLighting lighting{};
     for (const LightType type : types)
     {
-        shared::Light& light = lighting.lights[lighting.light_count++];
+        shared::Light& light = lighting.lights.emplace_back();
         light.type = static_cast<uint32_t>(type);
         light.direction = {0, -1, 0};
         light.position = {0, 4, 0};
@@ -33,7 +33,7 @@ shared::Lighting makeLights(std::initializer_list<LightType> types)
     return lighting;
 }
 
-gpu::ShadowPlan makePlan(const shared::Lighting& lighting, const gpu::ShadowOptions& options,
+gpu::ShadowPlan makePlan(const shared::SceneLighting& lighting, const gpu::ShadowOptions& options,
                          std::span<const ShadowSphere> spheres = {})
 {
     const shared::FrameView view =
@@ -53,18 +53,18 @@ std::vector<uint32_t> getSizes(const gpu::ShadowPlan& plan, uint32_t row)
 
 } // namespace
 
-std::vector<uint32_t> getRows(const shared::Lighting& lighting)
+std::vector<uint32_t> getRows(const shared::SceneLighting& lighting)
 {
     std::vector<uint32_t> rows;
-    for (uint32_t i = 0; i < lighting.light_count; ++i)
+    for (uint32_t i = 0; i < lighting.lights.size(); ++i)
         rows.push_back(lighting.lights[i].shadow_row);
     return rows;
 }
 
 TEST(ShadowRows, areGivenToSunsThenToSpotsThenToPointLights)
 {
-    shared::Lighting lighting = makeLights({LightType::spot, LightType::point, LightType::directional,
-                                            LightType::point, LightType::spot, LightType::directional});
+    shared::SceneLighting lighting = makeLights({LightType::spot, LightType::point, LightType::directional,
+                                                 LightType::point, LightType::spot, LightType::directional});
     lighting.lights[3].range = 7;
     EXPECT_EQ(getRows(lighting), (std::vector<uint32_t>{2, 4, 0, 10, 3, 1}));
     const auto casting = gpu::makeShadowCasters(lighting, kScene, 0.1f);
@@ -88,9 +88,9 @@ TEST(ShadowRows, areGivenToSunsThenToSpotsThenToPointLights)
 
 TEST(ShadowRows, areGivenToWholePointLightsOnly)
 {
-    shared::Lighting lighting{};
-    lighting.light_count = 12;
-    for (shared::Light& light : std::span(lighting.lights, lighting.light_count))
+    shared::SceneLighting lighting{};
+    lighting.lights.resize(12);
+    for (shared::Light& light : lighting.lights)
         light.type = static_cast<uint32_t>(LightType::point);
     lighting.lights[11].type = static_cast<uint32_t>(LightType::spot);
     gpu::assignShadowRows(lighting);
@@ -186,7 +186,7 @@ TEST(ShadowPlan, countsTheMapsThatItWouldHave)
     EXPECT_EQ(gpu::countShadowMaps(lighting, 4, 100), shared::kMaxShadowMaps);
 }
 
-gpu::ShadowDepthChoice chooseDepth(const shared::Lighting& lighting, const gpu::ShadowOptions& options,
+gpu::ShadowDepthChoice chooseDepth(const shared::SceneLighting& lighting, const gpu::ShadowOptions& options,
                                    const Box3& scene = kScene, std::span<const ShadowSphere> spheres = {})
 {
     return gpu::chooseShadowDepth(gpu::makeShadowCasters(lighting, scene, options.spot_near), options, scene,

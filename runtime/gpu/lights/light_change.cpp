@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/gpu/scene/light_change.h"
+#include "runtime/gpu/lights/light_change.h"
 
 #include "formats/scene/scene_lighting.h"
 #include "runtime/gpu/scene/scene_shadows.h"
 #include "runtime/gpu/scene/scene_surroundings.h"
 
 #include <cmath>
-#include <cstddef>
 #include <string>
 
 namespace hearth::gpu
@@ -33,17 +32,22 @@ Result<LightChange> changeLight(const Scene& scene, uint32_t light, const format
     const auto fail = [&](const std::string& detail) {
         return Error{Issue::usage, "", "light " + std::to_string(light), detail};
     };
-    if (light >= scene.lights.size())
-        return fail("there are " + std::to_string(scene.lights.size()) + " that are drawn");
-    if (record.type != scene.lights[light].type)
-        return fail("a light stays a sun, a lamp or a spot");
+    if (light >= scene.lights->layout().capacity)
+        return fail("there is room for " + std::to_string(scene.lights->layout().capacity) + " (max_lights)");
+    if (record.type > static_cast<uint32_t>(formats::LightType::spot))
+        return fail("its type is none");
     if (!isFinite(record))
         return fail("what it shall be is not finite");
     LightChange change{.light = light, .record = shared::lightFromRecord(record)};
-    change.record.intensity = change.record.intensity * scene.exposure;
-    change.record.shadow_row = scene.lights[light].shadow_row;
-    if (change.record.position == scene.lights[light].position)
-        shared::copyReflector(change.record, scene.lights[light]);
+    change.record.intensity = change.record.intensity * scene.lights->exposure();
+    change.record.shadow_row = shared::kNoShadow;
+    if (light >= scene.lights->lights().size())
+        return change;
+    const shared::Light& before = scene.lights->lights()[light];
+    if (before.type == record.type)
+        change.record.shadow_row = before.shadow_row;
+    if (change.record.position == before.position)
+        shared::copyReflector(change.record, before);
     return change;
 }
 
@@ -51,16 +55,14 @@ void takeLights(const Scene& scene, std::span<const LightChange> lights)
 {
     for (const LightChange& change : lights)
     {
-        scene.tables->lighting.write(offsetof(shared::Lighting, lights) +
-                                         change.light * sizeof(shared::Light),
-                                     std::as_bytes(std::span(&change.record, 1)));
+        scene.lights->set(scene.tables->lighting, change.light, change.record);
         if (scene.shadows != nullptr)
             scene.shadows->change(change.light, change.record);
         if (scene.surroundings != nullptr)
             scene.surroundings->change(change.light, change.record);
     }
     if (scene.surroundings != nullptr)
-        scene.surroundings->update(scene.tables->lighting);
+        scene.surroundings->update(scene.tables->lighting, scene.lights->layout().surroundings);
 }
 
 } // namespace hearth::gpu

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/lights/scene_lights.h"
+
+#include "formats/base/assert.h"
+#include "formats/gpu_shared/occluder_light.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+
+namespace hearth::gpu
+{
+
+namespace
+{
+
+constexpr VkDeviceSize kRowBytes = 16;
+
+/// Room for indices: 256 lights in cells for each light, as much as scenes of lamps need (bench "lights"), up
+/// to 128 Ki indices.
+uint32_t indexWords(uint32_t capacity)
+{
+    return std::min(capacity * 256u, 128u * 1024u) / 2;
+}
+
+} // namespace
+
+LightBufferLayout LightBufferLayout::make(uint32_t capacity, uint64_t surroundings_rows)
+{
+    LightBufferLayout layout{.capacity = capacity, .index_words = indexWords(capacity)};
+    layout.surroundings = layout.light(capacity);
+    layout.lists = layout.surroundings + surroundings_rows * kRowBytes;
+    layout.cells = layout.lists + sizeof(shared::LightListCounts) + VkDeviceSize{capacity} * sizeof(uint32_t);
+    layout.indices = layout.cells + VkDeviceSize{shared::kMaxLightCells} * sizeof(uint32_t);
+    layout.end = layout.indices + VkDeviceSize{layout.index_words} * sizeof(uint32_t);
+    return layout;
+}
+
+SceneLights::SceneLights(const LightBufferLayout& layout, shared::SceneLighting lighting)
+    : layout_(layout), lighting_(std::move(lighting))
+{
+    HEARTH_ASSERT(lighting_.lights.size() <= layout_.capacity);
+    head_.sky_zenith = lighting_.sky.zenith;
+    head_.sky_horizon = lighting_.sky.horizon;
+    head_.sky_ground = lighting_.sky.ground;
+    head_.exposure = lighting_.exposure;
+    head_.light_count = static_cast<uint32_t>(lighting_.lights.size());
+    const auto word = [](VkDeviceSize bytes) { return static_cast<uint32_t>(bytes / sizeof(uint32_t)); };
+    head_.first_list_word = word(layout_.lists);
+    head_.first_cell_word = word(layout_.cells);
+    head_.first_index_word = word(layout_.indices);
+    head_.index_words = layout_.index_words;
+}
+
+void SceneLights::fill(MirroredTable& table, std::span<const std::byte> surroundings, uint64_t transfer_rows,
+                       bool has_surroundings)
+{
+    head_.transfers_row = static_cast<uint32_t>(layout_.surroundings / kRowBytes);
+    head_.surroundings_row = has_surroundings ? head_.transfers_row + static_cast<uint32_t>(transfer_rows)
+                                              : shared::kNoSurroundings;
+    std::vector<std::byte> bytes(static_cast<size_t>(layout_.lists));
+    std::memcpy(bytes.data(), &head_, sizeof(head_));
+    std::memcpy(bytes.data() + layout_.light(0), lighting_.lights.data(),
+                lighting_.lights.size() * sizeof(shared::Light));
+    if (!surroundings.empty())
+        std::memcpy(bytes.data() + layout_.surroundings, surroundings.data(), surroundings.size());
+    table.fill(bytes);
+}
+
+void SceneLights::set(MirroredTable& table, uint32_t slot, const shared::Light& light)
+{
+    HEARTH_ASSERT(slot < layout_.capacity);
+    if (slot >= lighting_.lights.size())
+        lighting_.lights.resize(slot + 1);
+    lighting_.lights[slot] = light;
+    table.write(layout_.light(slot), std::as_bytes(std::span(&light, 1)));
+}
+
+bool SceneLights::hasRangedLights() const
+{
+    return std::any_of(lighting_.lights.begin(), lighting_.lights.end(),
+                       [](const shared::Light& light)
+                       { return !shared::isUnrangedLight(light) && !shared::isLightOff(light); });
+}
+
+void SceneLights::beginFrame(const MirroredTable& table, uint32_t copy, const shared::FrameView& view,
+                             LightLister lister)
+{
+    const shared::LightGridLayout grid = shared::makeLightGrid(shared::lightGridView(view));
+    head_.light_count = static_cast<uint32_t>(lighting_.lights.size());
+    head_.grid = grid.grid;
+    std::copy(grid.cascades.begin(), grid.cascades.end(), head_.cascades);
+    const Buffer& buffer = table.copy(copy);
+    std::memcpy(buffer.mapped, &head_, sizeof(head_));
+    if (!listsOnDevice(lister))
+        lists_.assign(grid, lighting_.lights, listView(buffer));
+}
+
+shared::LightListView SceneLights::listView(const Buffer& buffer) const
+{
+    const auto words = [&](VkDeviceSize offset, size_t count)
+    { return std::span(reinterpret_cast<uint32_t*>(buffer.mapped + offset), count); };
+    return {.counts = reinterpret_cast<shared::LightListCounts*>(buffer.mapped + layout_.lists),
+            .frame = words(layout_.lists + sizeof(shared::LightListCounts), layout_.capacity),
+            .cells = words(layout_.cells, shared::kMaxLightCells),
+            .indices = words(layout_.indices, layout_.index_words)};
+}
+
+} // namespace hearth::gpu

@@ -1,0 +1,82 @@
+// Lights of a scene: their slots, and the buffer in which shaders find them, their surroundings, and the lists
+// of the frame (formats/gpu_shared/shading.h, Lighting).
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/scene/scene_lighting.h"
+#include "runtime/frame/light_lists.h"
+#include "runtime/gpu/vulkan/mirrored_table.h"
+
+#include <span>
+#include <vector>
+
+namespace hearth::gpu
+{
+
+/// Processor that lists the lights of cells. The lists are the same, word for word.
+enum class LightLister : uint8_t
+{
+    gpu,
+    cpu,
+};
+
+/// Parts of the buffer of lights, in bytes from its begin.
+struct LightBufferLayout
+{
+    uint32_t capacity = 0;    ///< slots of lights
+    uint32_t index_words = 0; ///< room for indices
+    VkDeviceSize surroundings = 0;
+    VkDeviceSize lists = 0; ///< the parts before it are the table, those after it are the frame's
+    VkDeviceSize cells = 0;
+    VkDeviceSize indices = 0;
+    VkDeviceSize end = 0;
+
+    /// surroundings_rows  of 16 bytes
+    static LightBufferLayout make(uint32_t capacity, uint64_t surroundings_rows);
+    VkDeviceSize light(uint32_t slot) const
+    {
+        return sizeof(shared::Lighting) + VkDeviceSize{slot} * sizeof(shared::Light);
+    }
+};
+
+class SceneLights
+{
+public:
+    SceneLights(const LightBufferLayout& layout, shared::SceneLighting lighting);
+
+    const LightBufferLayout& layout() const { return layout_; }
+
+    /// Slots of lights up to the last that was ever used. An empty slot has a light that is off.
+    std::span<const shared::Light> lights() const { return lighting_.lights; }
+    float exposure() const { return lighting_.exposure; }
+
+    /// Set the content of the table, with the rows of surroundings behind the lights.
+    /// transfer_rows  of `surroundings`, before those of instances; all of them if the scene has none
+    void fill(MirroredTable& table, std::span<const std::byte> surroundings, uint64_t transfer_rows,
+              bool has_surroundings);
+
+    /// Replace the light of a slot below the capacity.
+    void set(MirroredTable& table, uint32_t slot, const shared::Light& light);
+
+    /// True if a frame lists its lights on the device: without ranged lights the lists are those of the frame
+    /// alone, which the CPU has at once.
+    bool listsOnDevice(LightLister lister) const { return lister == LightLister::gpu && hasRangedLights(); }
+
+    /// Write the grid of the frame's view to the copy of a frame, and the lists unless listsOnDevice.
+    void beginFrame(const MirroredTable& table, uint32_t copy, const shared::FrameView& view,
+                    LightLister lister);
+
+    /// Cells of the last frame's grid.
+    const shared::LightGrid& grid() const { return head_.grid; }
+
+private:
+    shared::LightListView listView(const Buffer& buffer) const;
+    bool hasRangedLights() const;
+
+    LightBufferLayout layout_;
+    shared::SceneLighting lighting_;
+    shared::Lighting head_{};
+    shared::LightLists lists_;
+};
+
+} // namespace hearth::gpu

@@ -1,0 +1,48 @@
+// Lights that a pixel evaluates: those that every point gets, then the ranged ones of its list. Needs
+// light_block.glsl and `view`.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/specialization.h"
+
+layout(constant_id = kConstantLightList) const uint kLightList = kLightListCells;
+
+struct LightListing
+{
+    uint unranged_count;
+    uint count; // of all lights
+    uint first_word; // of the indices
+    bool has_indices; // false: the ranged lights are all of the frame's
+};
+
+// position  relative to the eye
+LightListing findLights(vec3 position, vec2 pixel)
+{
+    uint unranged_count = light_words[lighting.first_list_word];
+    uint ranged = light_words[lighting.first_list_word + 1u];
+    LightListing listing = LightListing(unranged_count, unranged_count + ranged, 0u, false);
+    if (kLightList == kLightListFrame || ranged == 0u)
+        return listing;
+    float depth = dot(view.clip_w.xyz, position);
+    LightCascade cascade = lighting.cascades[lightCascadeAt(depth)];
+    uint word = light_words[lighting.first_cell_word + lightCellAt(cascade, pixel.x, pixel.y, depth)];
+    uint count = lightCellCount(word);
+    listing.has_indices = count != kAllLights;
+    if (listing.has_indices)
+    {
+        listing.count = unranged_count + count;
+        listing.first_word = lighting.first_index_word + lightCellOffset(word);
+    }
+    return listing;
+}
+
+// Row of light `number` of a listing.
+uint listedLight(LightListing listing, uint number)
+{
+    uint place = number;
+    if (listing.has_indices && number >= listing.unranged_count)
+    {
+        uint in_list = number - listing.unranged_count;
+        uint pair = light_words[listing.first_word + (in_list >> 1)];
+        place = listing.unranged_count + ((in_list & 1u) == 0u ? pair & 0xFFFFu : pair >> 16);
+    }
+    return light_words[lighting.first_list_word + kLightCountWords + place];
+}
