@@ -105,6 +105,14 @@ enum class LightKind
     spot,
 };
 
+/// Random change of a light's intensity over time, as of a flame; written as "flicker" of the light's extras.
+struct Flicker
+{
+    float rate = 0;      ///< changes a second, Hz
+    float amplitude = 0; ///< part of the intensity that is taken away at most, 0..1; 0: the light is steady
+    uint32_t seed = 0;
+};
+
 struct Light
 {
     std::string name;
@@ -114,6 +122,7 @@ struct Light
     float range = 0;     ///< metres; 0: unlimited
     float inner_cone_rad = 0;
     float outer_cone_rad = 0.7853982f;
+    Flicker flicker;
 };
 
 struct Skin

@@ -205,6 +205,10 @@ void addLights(Glb& glb, const Document& document)
         if (light.kind == LightKind::spot)
             json["spot"] = {{"innerConeAngle", light.inner_cone_rad},
                             {"outerConeAngle", light.outer_cone_rad}};
+        if (light.flicker.amplitude > 0)
+            json["extras"]["flicker"] = {{"rate", light.flicker.rate},
+                                         {"amplitude", light.flicker.amplitude},
+                                         {"seed", light.flicker.seed}};
         lights.push_back(std::move(json));
     }
     glb.use(glb.json, "KHR_lights_punctual", {{"lights", std::move(lights)}});
