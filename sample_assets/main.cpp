@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
 #include "formats/base/program.h"
+#include "sample_assets/market.h"
 #include "sample_assets/samples.h"
 #include "sample_assets/shapes/glb_writer.h"
 
@@ -39,6 +40,8 @@ int program(int argc, char** argv)
         .range(uint64_t{12}, uint64_t{1} << 26);
     app.addOption("--texture-size", options.texture_size, "texels along a side of the main textures")
         .range(1u, 8192u);
+    app.addOption("--lights", options.lights, "how many lights the market shall have; by default 192")
+        .range(1u, hearth::samples::kMaxMarketLights);
     app.addFlag("--list", list, "list the kinds of sample");
     if (const std::optional<int> exit_code = app.parse(argc, argv))
         return *exit_code;

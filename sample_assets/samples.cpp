@@ -7,6 +7,7 @@
 #include "sample_assets/grass.h"
 #include "sample_assets/hearth_scene.h"
 #include "sample_assets/land.h"
+#include "sample_assets/market.h"
 #include "sample_assets/outdoor.h"
 #include "sample_assets/rock.h"
 #include "sample_assets/room.h"
@@ -154,6 +155,11 @@ Document generateLand(const SampleOptions& options)
     return makeLand(trianglesOr(options, 2000000), textureSizeOr(options, 2048));
 }
 
+Document generateMarket(const SampleOptions& options)
+{
+    return makeMarket(options.lights ? options.lights : 192);
+}
+
 constexpr std::array kKinds{
     SampleKind{"rock", "a boulder of 50k triangles with colour, roughness and normal textures", generateRock},
     SampleKind{"terrain", "a tile of eroded ground, 131k triangles, coloured by slope", generateTerrain},
@@ -167,6 +173,8 @@ constexpr std::array kKinds{
                generateOutdoor},
     SampleKind{"spheres", "spheres of five roughnesses, dielectric and metal, under sky and sun",
                generateSpheres},
+    SampleKind{"market", "a night market: 192 lights, or --lights N, that flicker, swing and pass by",
+               generateMarket},
     SampleKind{"character", "a skinned mannequin of seventeen joints with a walk and a wave",
                generateCharacter},
     SampleKind{"transforms", "a small rock, mirrored, stretched and sheared", generateTransforms},

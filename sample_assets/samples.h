@@ -15,6 +15,7 @@ struct SampleOptions
 {
     uint64_t triangles = 0;    ///< target for the main mesh; 0: the kind's own default
     uint32_t texture_size = 0; ///< size of the rock's images; 0: the kind's own default
+    uint32_t lights = 0;       ///< number of the market's lights; 0: the kind's own default
 };
 
 struct SampleKind

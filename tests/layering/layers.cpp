@@ -166,7 +166,8 @@ const std::vector<Layer>& layers()
          {"formats", "runtime/frame", "runtime/pack", "runtime/gpu", "runtime/viewer"}},
 
         {"sample_assets/shapes", {"formats", "cook/json"}},
-        {"sample_assets", {"formats", "cook/command_line", "sample_assets/shapes"}},
+        {"sample_assets/market", {"formats", "sample_assets/shapes"}},
+        {"sample_assets", {"formats", "cook/command_line", "sample_assets/shapes", "sample_assets/market"}},
     };
     return list;
 }
