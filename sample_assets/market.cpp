@@ -51,7 +51,8 @@ Document makeMarket(uint32_t light_count)
     const std::vector<market::Fixture> moving = market::addMovingLamps(document, plan, models, evening);
     fixtures.insert(fixtures.end(), moving.begin(), moving.end());
     addMarketPeople(document, plan, evening);
-    market::addLights(document, fixtures, light_count);
+    const std::vector<int> light_of_fixture = market::addLights(document, fixtures, light_count);
+    market::addSignTracks(document, fixtures, light_of_fixture, evening);
     document.animations.push_back(std::move(evening));
 
     addCameras(document);

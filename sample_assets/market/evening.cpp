@@ -179,6 +179,36 @@ void addFireflies(Document& document, const Plan& plan, Animation& clip, std::ve
     }
 }
 
+/// Return a track of neon that starts with a flutter, every 3 seconds, and then is on.
+/// intensity  candela
+LightTrack makeBlinking(int light, float intensity)
+{
+    LightTrack track{light, LightProperty::intensity, TrackKind::step, {}, {}};
+    constexpr std::array<std::pair<float, float>, 6> kFlutter{
+        {{0.0f, 1.0f}, {2.0f, 0.0f}, {2.375f, 1.0f}, {2.5f, 0.0f}, {2.625f, 0.6f}, {2.75f, 0.0f}}};
+    for (float start = 0; start < kEveningSeconds; start += 3)
+        for (const auto& [time, share] : kFlutter)
+        {
+            track.times.push_back(start + time);
+            track.values.push_back({share * intensity, 0, 0});
+        }
+    track.times.push_back(kEveningSeconds);
+    track.values.push_back({intensity, 0, 0});
+    return track;
+}
+
+/// Return a track that goes through the colours of papers and ends where it began.
+LightTrack makeColorful(int light, uint32_t first)
+{
+    LightTrack track{light, LightProperty::color, TrackKind::linear, {}, {}};
+    for (uint32_t i = 0; i <= kPaperCount; ++i)
+    {
+        track.times.push_back(kEveningSeconds * static_cast<float>(i) / kPaperCount);
+        track.values.push_back(kPaperColors[(first + i) % kPaperCount]);
+    }
+    return track;
+}
+
 } // namespace
 
 Float3 cartPosition(float seconds)
@@ -210,6 +240,24 @@ std::vector<Fixture> addMovingLamps(Document& document, const Plan& plan, const 
     addCart(document, models, evening, fixtures);
     addFireflies(document, plan, evening, fixtures);
     return fixtures;
+}
+
+void addSignTracks(const Document& document, const std::vector<Fixture>& fixtures,
+                   const std::vector<int>& light_of_fixture, Animation& evening)
+{
+    uint32_t signs = 0;
+    for (size_t i = 0; i < fixtures.size(); ++i)
+    {
+        const int light = light_of_fixture[i];
+        if (fixtures[i].kind != FixtureKind::sign || light == kNoIndex)
+            continue;
+        if (signs % 3 == 0)
+            evening.light_tracks.push_back(
+                makeBlinking(light, document.lights[static_cast<size_t>(light)].intensity));
+        else if (signs % 3 == 1)
+            evening.light_tracks.push_back(makeColorful(light, fixtures[i].look));
+        ++signs;
+    }
 }
 
 } // namespace hearth::samples::market

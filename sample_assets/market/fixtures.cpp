@@ -107,6 +107,7 @@ void addSignLights(const Plan& plan, std::vector<Fixture>& fixtures)
         Fixture fixture{.kind = FixtureKind::sign};
         fixture.position = fromPlacement(sign.placement, {0, 0, 0.3f});
         fixture.color = kPaperColors[sign.color];
+        fixture.look = sign.color;
         fixture.reach = 0.3f;
         fixtures.push_back(fixture);
     }

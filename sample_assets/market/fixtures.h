@@ -39,7 +39,7 @@ struct Fixture
     float flicker = 0;   ///< amplitude; 0: steady
     int node = kNoIndex; ///< node that it moves with
     uint32_t look =
-        0; ///< of a lantern: its paper; of a stall lamp: 1 has a shade; of bulbs: 1 coloured, 2 cold
+        0; ///< of a lantern or sign: its colour; of a stall lamp: 1 has a shade; of bulbs: 1 coloured, 2 cold
 };
 
 /// Linear colours of paper lanterns and their light.

@@ -143,6 +143,7 @@ enum class TrackKind
 {
     linear,
     cubic_spline,
+    step,
 };
 
 /// Animation track. Values are x y z (w): one for each time, or in-tangent, value, out-tangent for a cubic
@@ -156,10 +157,27 @@ struct Track
     std::vector<Float4> values;
 };
 
+enum class LightProperty
+{
+    intensity,
+    color,
+};
+
+/// Animation track of a light, not of a node: a channel of KHR_animation_pointer.
+struct LightTrack
+{
+    int light = kNoIndex;
+    LightProperty property = LightProperty::intensity;
+    TrackKind kind = TrackKind::linear; ///< linear or step
+    std::vector<float> times;
+    std::vector<Float3> values; ///< one for each time; of an intensity x alone
+};
+
 struct Animation
 {
     std::string name;
     std::vector<Track> tracks;
+    std::vector<LightTrack> light_tracks;
 };
 
 struct Document

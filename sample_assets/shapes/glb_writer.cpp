@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "sample_assets/shapes/glb_writer.h"
 
-#include "cook/json/json.h"
+#include "sample_assets/shapes/glb_animations.h"
 #include "sample_assets/shapes/parallel.h"
 #include "sample_assets/shapes/png.h"
 
 #include <cstdio>
 #include <cstring>
-#include <set>
 
 namespace hearth::samples
 {
@@ -15,7 +14,7 @@ namespace hearth::samples
 namespace
 {
 
-constexpr int kComponentU16 = 5123, kComponentU32 = 5125, kComponentF32 = 5126;
+constexpr int kComponentU16 = 5123, kComponentU32 = 5125;
 constexpr int kTargetVertices = 34962, kTargetIndices = 34963;
 
 Json toJson(Float2 v)
@@ -30,45 +29,6 @@ Json toJson(Float4 v)
 {
     return Json::array({v.x, v.y, v.z, v.w});
 }
-
-/// JSON and binary chunk under construction.
-struct Glb
-{
-    Json json;
-    std::vector<std::byte> binary;
-    std::set<std::string> extensions; ///< extensions used; none is required to draw something sensible
-
-    int addView(std::span<const std::byte> bytes, int target = 0)
-    {
-        binary.resize((binary.size() + 3) / 4 * 4);
-        Json view{{"buffer", 0}, {"byteOffset", binary.size()}, {"byteLength", bytes.size()}};
-        if (target != 0)
-            view["target"] = target;
-        binary.insert(binary.end(), bytes.begin(), bytes.end());
-        json["bufferViews"].push_back(std::move(view));
-        return static_cast<int>(json["bufferViews"].size()) - 1;
-    }
-
-    template <typename T>
-    int addAccessor(std::span<const T> values, int component, const char* type, int target,
-                    const Json& bounds = Json())
-    {
-        Json accessor{{"bufferView", addView(std::as_bytes(values), target)},
-                      {"componentType", component},
-                      {"count", values.size()},
-                      {"type", type}};
-        if (!bounds.is_null())
-            accessor.update(bounds);
-        json["accessors"].push_back(std::move(accessor));
-        return static_cast<int>(json["accessors"].size()) - 1;
-    }
-
-    void use(Json& object, const char* extension, Json value)
-    {
-        object["extensions"][extension] = std::move(value);
-        extensions.insert(extension);
-    }
-};
 
 int addPositions(Glb& glb, std::span<const Float3> positions)
 {
@@ -278,43 +238,6 @@ void addSkins(Glb& glb, const Document& document)
         if (skin.skeleton_root != kNoIndex)
             json["skeleton"] = skin.skeleton_root;
         glb.json["skins"].push_back(std::move(json));
-    }
-}
-
-int addTrackValues(Glb& glb, const Track& track)
-{
-    if (track.path == TrackPath::rotation)
-        return glb.addAccessor<Float4>(track.values, kComponentF32, "VEC4", 0);
-    std::vector<Float3> xyz;
-    for (const Float4 value : track.values)
-        xyz.push_back({value.x, value.y, value.z});
-    return glb.addAccessor<Float3>(xyz, kComponentF32, "VEC3", 0);
-}
-
-void addAnimations(Glb& glb, const Document& document)
-{
-    for (const Animation& animation : document.animations)
-    {
-        Json channels = Json::array(), samplers = Json::array();
-        for (const Track& track : animation.tracks)
-        {
-            const size_t values_per_key = track.kind == TrackKind::cubic_spline ? 3 : 1;
-            HEARTH_ASSERT(!track.times.empty() && track.values.size() == track.times.size() * values_per_key);
-            const Json bounds{{"min", Json::array({track.times.front()})},
-                              {"max", Json::array({track.times.back()})}};
-            const int input = glb.addAccessor<float>(track.times, kComponentF32, "SCALAR", 0, bounds);
-            channels.push_back(
-                {{"sampler", samplers.size()},
-                 {"target",
-                  {{"node", track.node},
-                   {"path", track.path == TrackPath::rotation ? "rotation" : "translation"}}}});
-            samplers.push_back(
-                {{"input", input},
-                 {"output", addTrackValues(glb, track)},
-                 {"interpolation", track.kind == TrackKind::linear ? "LINEAR" : "CUBICSPLINE"}});
-        }
-        glb.json["animations"].push_back(
-            {{"name", animation.name}, {"channels", std::move(channels)}, {"samplers", std::move(samplers)}});
     }
 }
 

@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <sstream>
 
 namespace hearth::test
 {
@@ -159,6 +160,22 @@ TEST(Market, hasLightsThatMoveAndFlicker)
     EXPECT_GT(flickering, 15u);
 }
 
+TEST(Market, hasLightsThatBlinkAndChangeColour)
+{
+    std::set<samples::LightProperty> properties;
+    for (const samples::LightTrack& track : defaultMarket().animations[0].light_tracks)
+    {
+        properties.insert(track.property);
+        ASSERT_LT(static_cast<size_t>(track.light), defaultMarket().lights.size());
+        EXPECT_EQ(track.times.back(), 12);
+        EXPECT_EQ(track.values.front(), track.values.back()) << "the clip loops";
+        const Light& light = defaultMarket().lights[static_cast<size_t>(track.light)];
+        EXPECT_EQ(track.values.front(),
+                  track.property == samples::LightProperty::color ? light.color : Float3{light.intensity});
+    }
+    EXPECT_EQ(properties.size(), 2u);
+}
+
 // S. Yeung's test scene of a light pre-pass renderer: three directional lights, 30 point lights, two
 // characters
 TEST(Market, showsThirtyPointLightsToOneCamera)
@@ -193,11 +210,11 @@ TEST(Market, staysSmallWithManyLights)
 {
     const samples::GlbFile few = samples::encodeGlb(defaultMarket());
     const samples::GlbFile many = samples::encodeGlb(samples::makeMarket(4096));
-    EXPECT_EQ(few.binary.size(), many.binary.size()) << "lamps are drawn with and without a light";
+    EXPECT_LT(many.binary.size() - few.binary.size(), 8192u) << "lamps are drawn with and without a light";
     EXPECT_LT(many.head.size(), size_t{2} << 20);
 }
 
-TEST(Market, isImportedWithoutWarnings)
+TEST(Market, isImportedWithoutWarningsButOfAnimatedLights)
 {
     Sandbox folder;
     for (const std::string count : {"1", "192", "4096"})
@@ -207,7 +224,9 @@ TEST(Market, isImportedWithoutWarnings)
                   0);
         const ProgramEnd end = folder.run({HEARTH_BIN "/hearth-import", "market.glb", "-o", "market.part"});
         EXPECT_EQ(end.exit_code, 0);
-        EXPECT_EQ(end.err, "") << count;
+        std::istringstream lines(end.err);
+        for (std::string line; std::getline(lines, line);)
+            EXPECT_NE(line.find("pointer"), std::string::npos) << line;
     }
 }
 
