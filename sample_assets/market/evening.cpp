@@ -61,7 +61,7 @@ Fixture addSwingingLantern(Document& document, int mesh, uint32_t paper, int par
     Fixture fixture{.kind = FixtureKind::moving};
     fixture.light_drop = kLanternLightDrop;
     fixture.color = kPaperColors[paper];
-    fixture.reach = 0.35f;
+    fixture.range = 6.5f;
     fixture.node = addChild(document, swing, lantern);
     return fixture;
 }
@@ -170,7 +170,7 @@ void addFireflies(Document& document, const Plan& plan, Animation& clip, std::ve
         node.placement.translation = place(0);
         Fixture fixture{.kind = FixtureKind::moving};
         fixture.color = kGlow;
-        fixture.reach = 0;
+        fixture.range = 2;
         fixture.flicker = 0.6f;
         fixture.node = addRoot(document, node);
         addTrack(clip, fixture.node, TrackPath::translation, 4,

@@ -26,7 +26,7 @@ void addStallLamps(const Plan& plan, std::vector<Fixture>& fixtures)
         Fixture fixture;
         fixture.position = fromPlacement(stall, kStallLamp);
         fixture.color = random(0) < 0.75f ? kBulbColor : Float3{1.0f, 0.82f, 0.60f};
-        fixture.reach = 0.25f + 0.3f * random(1);
+        fixture.range = 3.6f + 2.8f * random(1);
         if (plan.stalls[i].has_spots && random(2) < 0.5f)
         {
             fixture.light = LightKind::spot;
@@ -57,7 +57,7 @@ void addLanterns(const Plan& plan, std::vector<Fixture>& fixtures)
                 static_cast<uint32_t>(random < 0.72f ? random / 0.24f : 3 + (random - 0.72f) / 0.0934f);
             fixture.light_drop = kLanternLightDrop;
             fixture.color = kPaperColors[fixture.look];
-            fixture.reach = 0.2f + 0.3f * randomUnit(i * 8 + k, 1103);
+            fixture.range = 5.4f + 2.2f * randomUnit(i * 8 + k, 1103);
             fixture.flicker = k % 2 == 0 ? 0.25f : 0.0f;
             fixtures.push_back(fixture);
         }
@@ -71,7 +71,7 @@ void addLampPosts(const Plan& plan, std::vector<Fixture>& fixtures)
         Fixture fixture{.kind = FixtureKind::lamp_post};
         fixture.position = fromPlacement(post, kPostLight);
         fixture.color = {1.0f, 0.60f, 0.26f};
-        fixture.reach = 0.75f + 0.25f * randomUnit(static_cast<uint32_t>(fixtures.size()), 1104);
+        fixture.range = 8.5f + 3.5f * randomUnit(static_cast<uint32_t>(fixtures.size()), 1104);
         fixtures.push_back(fixture);
     }
 }
@@ -95,7 +95,7 @@ void addAccents(const Plan& plan, std::vector<Fixture>& fixtures)
             fixture.outer_cone_rad = (7 + 16 * random(1)) * kDegree;
             fixture.inner_cone_rad = fixture.outer_cone_rad * 0.5f;
             fixture.color = random(2) < 0.7f ? Float3{1.0f, 0.86f, 0.66f} : kPaperColors[3 + i % 3];
-            fixture.reach = 0.1f + 0.2f * random(3);
+            fixture.range = 3.4f + 1.6f * random(3);
             fixtures.push_back(fixture);
         }
 }
@@ -108,7 +108,7 @@ void addSignLights(const Plan& plan, std::vector<Fixture>& fixtures)
         fixture.position = fromPlacement(sign.placement, {0, 0, 0.3f});
         fixture.color = kPaperColors[sign.color];
         fixture.look = sign.color;
-        fixture.reach = 0.3f;
+        fixture.range = 4.5f;
         fixtures.push_back(fixture);
     }
 }
@@ -119,7 +119,7 @@ Fixture makeBulb(FixtureKind kind, Float3 position, uint32_t id)
     Fixture fixture{.kind = kind};
     fixture.position = position;
     fixture.color = kBulbColor;
-    fixture.reach = 0.12f * randomUnit(id, 1106);
+    fixture.range = 1.3f + 0.9f * randomUnit(id, 1106);
     return fixture;
 }
 

@@ -35,7 +35,7 @@ struct Fixture
     Float3 color{1, 1, 1};      ///< linear, largest channel 1
     float inner_cone_rad = 0;
     float outer_cone_rad = 0;
-    float reach = 0;     ///< 0 to 1: where the light's range lies among those of the market
+    float range = 3;     ///< metres, in a market of 192 lights
     float flicker = 0;   ///< amplitude; 0: steady
     int node = kNoIndex; ///< node that it moves with
     uint32_t look =

@@ -12,9 +12,9 @@ namespace hearth::samples::market
 namespace
 {
 
-/// Illuminance that a lamp would have at its range without the window that ends it there, lux: 0.45 makes a
-/// lantern of 6 m a bulb of 16 cd, and a candle of 1.5 m one of 1 cd.
-constexpr float kEndIlluminance = 0.45f;
+/// Illuminance that a lamp would have at its range without the window that ends it there, lux: 0.32 makes a
+/// lantern of 7 m a bulb of 16 cd, and a candle of 1.5 m one of 0.7 cd.
+constexpr float kEndIlluminance = 0.32f;
 
 /// Share of the lights that a kind of fixture gets, beside the others of its rank. Rank 1 comes after all of
 /// rank 0.
@@ -91,7 +91,7 @@ int addFixtureLight(Document& document, const Fixture& fixture, const RangeLimit
     light.name = name;
     light.kind = fixture.light;
     light.color = fixture.color;
-    light.range = lerp(limits.low, limits.high, fixture.reach);
+    light.range = std::clamp(fixture.range * limits.factor, limits.low, limits.high);
     light.intensity = kEndIlluminance * light.range * light.range;
     if (light.kind == LightKind::spot)
     {
@@ -129,7 +129,7 @@ RangeLimits rangeLimits(uint32_t light_count)
         float count;
         RangeLimits limits;
     };
-    constexpr Row kRows[] = {{192, {3, 12}}, {1024, {2, 8}}, {4096, {1, 5}}};
+    constexpr Row kRows[] = {{192, {3, 12, 1}}, {1024, {2, 8, 0.85f}}, {4096, {1, 5, 0.85f}}};
     const auto count = static_cast<float>(light_count);
     for (size_t i = 0; i + 1 < std::size(kRows); ++i)
     {
@@ -137,7 +137,8 @@ RangeLimits rangeLimits(uint32_t light_count)
         const float share = clamp01((count - from.count) / (to.count - from.count));
         if (share < 1)
             return {lerp(from.limits.low, to.limits.low, share),
-                    lerp(from.limits.high, to.limits.high, share)};
+                    lerp(from.limits.high, to.limits.high, share),
+                    lerp(from.limits.factor, to.limits.factor, share)};
     }
     return kRows[std::size(kRows) - 1].limits;
 }

@@ -10,10 +10,11 @@ namespace hearth::samples::market
 /// Number of directional lights: the moon, the town's glow and the sky's.
 inline constexpr uint32_t kSunCount = 3;
 
-/// Metres between which the ranges of the lamps lie.
+/// Limits of the ranges of lamps, metres, and the factor of ranges before they are limited.
 struct RangeLimits
 {
     float low, high;
+    float factor;
 };
 
 /// Return the limits for a number of lights: the more, the shorter, so that each point is in reach of few.
