@@ -23,8 +23,8 @@ void addCameras(Document& document)
     addCamera(document, {.name = "street", .y_fov_rad = 0.80f}, {0.55f, 1.62f, 27.6f}, {-0.25f, 1.9f, 8});
     addCamera(document, {.name = "above", .y_fov_rad = 0.80f}, {4, 23, 50}, {0.5f, 0, 3});
     // looks down on the two characters; samples_market_test counts the lights in its view
-    addCamera(document, {.name = "thirty", .y_fov_rad = 0.56f}, {-2.47f, 6.4f, 18.8f},
-              {0.51f, -0.7f, 15.74f});
+    addCamera(document, {.name = "thirty", .y_fov_rad = 0.61f}, {-0.23f, 6.71f, 18.66f},
+              {0.84f, 1.65f, 15.86f});
     addCamera(document, {.name = "stall", .y_fov_rad = 0.75f}, {-1.9f, 1.62f, -22.0f},
               {-5.2f, 1.25f, -21.05f});
 }

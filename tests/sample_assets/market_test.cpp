@@ -194,7 +194,7 @@ TEST(Market, showsThirtyPointLightsToOneCamera)
     EXPECT_EQ(points, 30u);
     EXPECT_EQ(spots, 0u);
     EXPECT_EQ(count(defaultMarket(), LightKind::directional), 3u);
-    EXPECT_GT(nearest, 0.3f) << "metres: rounding decides about no light";
+    EXPECT_GT(nearest, 0.15f) << "metres: rounding decides about no light";
     EXPECT_EQ(defaultMarket().skins.size(), 2u);
 }
 
