@@ -4,6 +4,7 @@
 #include "sample_assets/character.h"
 #include "sample_assets/market/evening.h"
 #include "sample_assets/market/pieces.h"
+#include "sample_assets/market/street.h"
 #include "sample_assets/shapes/noise.h"
 #include "sample_assets/shapes/sample_math.h"
 
@@ -51,6 +52,12 @@ TriangleMesh takeStatue(const Pose& pose)
     return statue;
 }
 
+/// Return the point of the ground below or above a point.
+Float3 onGround(Float3 point)
+{
+    return {point.x, market::groundHeight({point.x, point.z}), point.z};
+}
+
 /// A person who does not move.
 struct Bystander
 {
@@ -79,6 +86,7 @@ void placeAtStalls(const market::Plan& plan, std::vector<Bystander>& people)
             const Placement& stall = plan.stalls[i].placement;
             Placement person =
                 market::standing(market::fromPlacement(stall, at), 0, 0.94f + 0.12f * random(5));
+            person.translation = onGround(person.translation);
             person.rotation = multiply(stall.rotation, rotationAbout({0, 1, 0}, turn));
             people.push_back({person, pose, static_cast<uint32_t>(random(1) * kDyes.size())});
         }
@@ -95,7 +103,7 @@ void placeInLanes(const market::Plan& plan, std::vector<Bystander>& people)
         if (random(0) > 0.8f || (is_main && string.from.z > 8))
             continue;
         Float3 at = lerp(string.from, string.to, 0.3f + 0.4f * random(1));
-        at = {at.x, 0, at.z + 2.5f * (random(2) - 0.5f)};
+        at = onGround({at.x, 0, at.z + 2.5f * (random(2) - 0.5f)});
         const float heading = (random(3) < 0.5f ? 0.0f : kPi) + 0.5f * (random(4) - 0.5f);
         people.push_back({market::standing(at, heading, 0.94f + 0.12f * random(5)), kStrolling,
                           static_cast<uint32_t>(random(6) * kDyes.size())});
@@ -186,7 +194,7 @@ void addGuest(Document& document, Animation& clip)
 {
     const Pose standing = relaxedPose();
     const CharacterNodes guest = addCharacter(document, standing, standing, kSkinCell);
-    place(document, guest, market::standing({0.85f, 0, 16.6f}, kPi * 0.8f));
+    place(document, guest, market::standing(onGround({0.85f, 0, 16.6f}), kPi * 0.8f));
     addPoseTracks(clip, guest,
                   [&](float time)
                   {

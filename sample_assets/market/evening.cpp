@@ -2,6 +2,7 @@
 #include "sample_assets/market/evening.h"
 
 #include "sample_assets/market/pieces.h"
+#include "sample_assets/market/street.h"
 #include "sample_assets/shapes/noise.h"
 #include "sample_assets/shapes/sample_math.h"
 #include "sample_assets/shapes/scene_parts.h"
@@ -213,7 +214,8 @@ LightTrack makeColorful(int light, uint32_t first)
 
 Float3 cartPosition(float seconds)
 {
-    return {-1.35f, 0.0f, 11.5f - kCartSpeed * seconds};
+    const Float2 at{-1.35f, 11.5f - kCartSpeed * seconds};
+    return {at.x, groundHeight(at), at.y};
 }
 
 std::vector<float> eveningTimes(float per_second)

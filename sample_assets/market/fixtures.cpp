@@ -2,6 +2,7 @@
 #include "sample_assets/market/fixtures.h"
 
 #include "sample_assets/market/pieces.h"
+#include "sample_assets/market/street.h"
 #include "sample_assets/market/surroundings.h"
 #include "sample_assets/shapes/noise.h"
 #include "sample_assets/shapes/sample_math.h"
@@ -218,10 +219,9 @@ void addGroundCandles(std::vector<Fixture>& fixtures)
     for (uint32_t i = 0; i < 2 * kAlong; ++i)
     {
         const float side = i % 2 == 0 ? -1.0f : 1.0f;
-        Fixture candle = makeBulb(FixtureKind::ground_candle,
-                                  {side * (3.05f + 0.1f * randomUnit(i, 1108)), 0.13f,
-                                   33 - 66 * (static_cast<float>(i / 2) + 0.5f) / kAlong},
-                                  i);
+        const Float2 at{side * (3.05f + 0.1f * randomUnit(i, 1108)),
+                        33 - 66 * (static_cast<float>(i / 2) + 0.5f) / kAlong};
+        Fixture candle = makeBulb(FixtureKind::ground_candle, {at.x, groundHeight(at) + 0.15f, at.y}, i);
         candle.color = kFlameColor;
         candle.flicker = 0.35f;
         fixtures.push_back(candle);

@@ -2,6 +2,7 @@
 #include "sample_assets/market/goods.h"
 
 #include "sample_assets/market/pieces.h"
+#include "sample_assets/market/street.h"
 #include "sample_assets/shapes/noise.h"
 #include "sample_assets/shapes/sample_math.h"
 #include "sample_assets/shapes/scene_parts.h"
@@ -302,6 +303,8 @@ void addStores(Document& document, const Plan& plan, const GoodsMaterials& mater
         const auto put = [&](size_t kind, Float3 at, float turn)
         {
             Placement placement = standing(fromPlacement(stall, at), turn);
+            const Float3 foot = placement.translation;
+            placement.translation.y += groundHeight({foot.x, foot.z});
             placement.rotation = multiply(stall.rotation, placement.rotation);
             placements[kind].push_back(placement);
         };

@@ -70,7 +70,7 @@ void addLampPostMeshes(Document& document, const LampMaterials& materials, const
                                     {0.07f, 0.8f},
                                     {0.08f, 0.1f},
                                     {0.14f, 0.06f},
-                                    {0.14f, -0.06f}},
+                                    {0.14f, -0.1f}},
                                    14);
     append(post, makeRod({0, 3.62f, 0}, {0, 3.68f, kPostLamp.z}, 0.02f, 8));
     append(post, makeRod({0, 3.3f, 0.02f}, {0, 3.63f, 0.36f}, 0.014f, 8));

@@ -101,10 +101,11 @@ TriangleMesh makeTent()
 void appendPosts(TriangleMesh& wood, float front, float back)
 {
     constexpr float kHalf = 0.045f, kX = 1.5f, kZ = 1.0f;
+    constexpr float kSunk = -0.08f; ///< the ground is uneven
     for (const float x : {-kX, kX})
     {
-        append(wood, makeBlock({x - kHalf, 0, kZ - kHalf}, {x + kHalf, front, kZ + kHalf}));
-        append(wood, makeBlock({x - kHalf, 0, -kZ - kHalf}, {x + kHalf, back, -kZ + kHalf}));
+        append(wood, makeBlock({x - kHalf, kSunk, kZ - kHalf}, {x + kHalf, front, kZ + kHalf}));
+        append(wood, makeBlock({x - kHalf, kSunk, -kZ - kHalf}, {x + kHalf, back, -kZ + kHalf}));
     }
     append(wood, makeBlock({-kX, front - 0.14f, kZ - 0.03f}, {kX, front - 0.06f, kZ + 0.03f}));
     append(wood, makeBlock({-kX, back - 0.14f, -kZ - 0.03f}, {kX, back - 0.06f, -kZ + 0.03f}));
@@ -133,7 +134,7 @@ TriangleMesh makeCounter()
     for (const float y : {0.55f, 1.05f, 1.55f})
         board({-1.4f, y, -1.02f}, {1.4f, y + 0.025f, -0.72f});
     for (const float x : {-1.43f, 1.4f})
-        board({x, 0, -1.02f}, {x + 0.03f, 1.75f, -0.72f});
+        board({x, -0.08f, -1.02f}, {x + 0.03f, 1.75f, -0.72f});
     return wood;
 }
 

@@ -7,7 +7,7 @@
 namespace hearth::samples::market
 {
 
-/// Return the height of the ground, metres: within 3 cm of 0.
+/// Return the height of the ground, metres: within 5 cm of 0.
 float groundHeight(Float2 xz);
 
 /// Add the ground and the puddles.

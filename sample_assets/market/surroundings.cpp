@@ -129,7 +129,7 @@ TriangleMesh makeCrown()
 TriangleMesh makeTrunk()
 {
     TriangleMesh trunk =
-        makeTurned({{0.05f, 3.2f}, {0.085f, 2.2f}, {0.11f, 1.0f}, {0.15f, 0.2f}, {0.22f, -0.08f}}, 14);
+        makeTurned({{0.05f, 3.2f}, {0.085f, 2.2f}, {0.11f, 1.0f}, {0.15f, 0.2f}, {0.22f, -0.12f}}, 14);
     for (Float3& p : trunk.positions)
         p.x += 0.06f * sine(p.y * 1.7f);
     setSmoothNormals(trunk);
@@ -222,7 +222,7 @@ void addPoles(Document& document, const Plan& plan)
                                           {0.035f, 4.45f},
                                           {0.045f, 0.35f},
                                           {0.10f, 0.25f},
-                                          {0.12f, -0.05f}},
+                                          {0.12f, -0.1f}},
                                          14);
     std::vector<Placement> poles;
     for (const Float3 foot : plan.poles)
