@@ -37,14 +37,15 @@ constexpr std::array<Share, kFixtureKinds> kShares{{{0, 4.0f, "stall_lamp"},
                                                     {1, 5.0f, "facade_bulb"},
                                                     {1, 1.4f, "ground_candle"}}};
 
-/// Return how many fixtures of each kind get a light, by the largest averages of V. D'Hondt.
+/// Return the kinds of the fixtures that get a light, in order, by the largest averages of V. D'Hondt: each
+/// first part of the order has the shares, too, so that a renderer of few lights shows some of each kind.
 /// available  fixtures of each kind
-std::array<uint32_t, kFixtureKinds> shareOut(const std::array<uint32_t, kFixtureKinds>& available,
-                                             uint32_t count)
+std::vector<uint32_t> shareOut(const std::array<uint32_t, kFixtureKinds>& available, uint32_t count)
 {
+    std::vector<uint32_t> order;
     std::array<uint32_t, kFixtureKinds> given{};
     for (uint32_t rank = 0; rank <= 1; ++rank)
-        while (count > 0)
+        while (order.size() < count)
         {
             uint32_t best = kFixtureKinds;
             float best_average = 0;
@@ -59,10 +60,10 @@ std::array<uint32_t, kFixtureKinds> shareOut(const std::array<uint32_t, kFixture
             if (best == kFixtureKinds)
                 break;
             ++given[best];
-            --count;
+            order.push_back(best);
         }
-    HEARTH_ASSERT(count == 0);
-    return given;
+    HEARTH_ASSERT(order.size() == count);
+    return order;
 }
 
 void addSun(Document& document, const char* name, Float3 color, float lux, Float3 towards)
@@ -147,21 +148,20 @@ std::vector<int> addLights(Document& document, const std::vector<Fixture>& fixtu
 {
     const uint32_t suns = std::min(count, kSunCount);
     addSuns(document, suns);
-    std::array<uint32_t, kFixtureKinds> available{};
-    for (const Fixture& fixture : fixtures)
-        ++available[static_cast<size_t>(fixture.kind)];
-    const std::array<uint32_t, kFixtureKinds> given = shareOut(available, count - suns);
+    std::array<std::vector<size_t>, kFixtureKinds> fixtures_of_kind;
+    for (size_t i = 0; i < fixtures.size(); ++i)
+        fixtures_of_kind[static_cast<size_t>(fixtures[i].kind)].push_back(i);
+    std::array<uint32_t, kFixtureKinds> available{}, used{};
+    for (size_t kind = 0; kind < kFixtureKinds; ++kind)
+        available[kind] = static_cast<uint32_t>(fixtures_of_kind[kind].size());
 
     const RangeLimits limits = rangeLimits(count);
-    std::array<uint32_t, kFixtureKinds> used{};
     std::vector<int> light_of_fixture(fixtures.size(), kNoIndex);
-    for (size_t i = 0; i < fixtures.size(); ++i)
+    for (const uint32_t kind : shareOut(available, count - suns))
     {
-        const auto kind = static_cast<size_t>(fixtures[i].kind);
-        if (used[kind] == given[kind])
-            continue;
+        const size_t fixture = fixtures_of_kind[kind][used[kind]];
         const std::string name = std::string(kShares[kind].name) + "_" + std::to_string(used[kind]++);
-        light_of_fixture[i] = addFixtureLight(document, fixtures[i], limits, name);
+        light_of_fixture[fixture] = addFixtureLight(document, fixtures[fixture], limits, name);
     }
     return light_of_fixture;
 }

@@ -146,6 +146,16 @@ TEST(Market, hasSpotsFromNarrowToWide)
     EXPECT_LT(widest, samples::kPi / 2);
 }
 
+// a renderer may draw only the first lights of a file
+TEST(Market, hasLampsOfEachKindAmongItsFirstLights)
+{
+    for (const std::string kind :
+         {"stall_lamp_", "lantern_", "lamp_post_", "accent_", "sign_", "moving_lamp_"})
+        EXPECT_TRUE(std::any_of(defaultMarket().lights.begin(), defaultMarket().lights.begin() + 64,
+                                [&](const Light& light) { return light.name.starts_with(kind); }))
+            << kind;
+}
+
 TEST(Market, hasLightsThatMoveAndFlicker)
 {
     ASSERT_EQ(defaultMarket().animations.size(), 1u);
