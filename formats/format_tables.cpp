@@ -4,6 +4,7 @@
 #include "formats/base/issues.h"
 #include "formats/codecs/page_codec.h"
 #include "formats/pack/pack_check.h"
+#include "formats/records/animation_paths.h"
 #include "formats/records/chunk_list.h"
 
 #include <array>
@@ -63,6 +64,14 @@ std::vector<Value> listExtrasOwners()
     return values;
 }
 
+std::vector<Value> listAnimationPaths()
+{
+    std::vector<Value> values;
+    for (const AnimationPathInfo& info : kAnimationPaths)
+        values.push_back(value(info.name, info.path, info.meaning));
+    return values;
+}
+
 std::vector<ValueTable> valueTables()
 {
     return {
@@ -96,11 +105,7 @@ std::vector<ValueTable> valueTables()
          {value("placeholder", kImagePlaceholder, "stands for an image that could not be read"),
           value("normal map", kImageNormalMap, "mips are averaged as directions"),
           value("alpha-tested", kImageAlphaTested, "mips keep the covered area at alpha_cutoff")}},
-        {"AnimationPath",
-         {value("translation", AnimationPath::translation, "3 components"),
-          value("rotation", AnimationPath::rotation, "4 components, quaternion x y z w"),
-          value("scale", AnimationPath::scale, "3 components"),
-          value("weights", AnimationPath::weights, "one component for each morph target")}},
+        {"AnimationPath", listAnimationPaths()},
         {"KeyEncoding",
          {value("floats", KeyEncoding::floats, "times and values as floats"),
           value("packed", KeyEncoding::packed, "codes in a stream of bits")}},

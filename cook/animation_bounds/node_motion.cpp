@@ -134,7 +134,7 @@ void addChannel(const AnimationTables& tables, const AnimationChannelRecord& cha
     case AnimationPath::scale:
         addValues(tables, channel, channel_bounds.scales);
         break;
-    case AnimationPath::weights:
+    default:
         break;
     }
 }
@@ -186,7 +186,7 @@ std::vector<NodeMotion> nodeMotions(const AnimationTables& tables)
     for (const AnimationRecord& animation : tables.animations)
         for (const AnimationChannelRecord& channel :
              tables.channels.subspan(animation.channels.first, animation.channels.count))
-            addChannel(tables, channel, channel_bounds[channel.node]);
+            addChannel(tables, channel, channel_bounds[channel.target]);
     std::vector<NodeMotion> motions;
     motions.reserve(tables.nodes.size());
     for (size_t i = 0; i < tables.nodes.size(); ++i)
@@ -282,7 +282,7 @@ std::vector<Interval> morphWeightRanges(const AnimationTables& tables, uint32_t 
     for (const AnimationRecord& animation : tables.animations)
         for (const AnimationChannelRecord& channel :
              tables.channels.subspan(animation.channels.first, animation.channels.count))
-            if (channel.node == node && static_cast<AnimationPath>(channel.path) == AnimationPath::weights)
+            if (channel.target == node && static_cast<AnimationPath>(channel.path) == AnimationPath::weights)
                 for (uint32_t i = 0; i < std::min<size_t>(channel.components, targets); ++i)
                     addValues(tables, channel, i, ranges[i]);
     for (Interval& range : ranges)

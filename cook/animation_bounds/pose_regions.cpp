@@ -183,7 +183,7 @@ std::vector<NodeSpan> PoseRegions::computeSpans(const Clip& clip, uint32_t part)
     const Range channels = clip.animation->channels;
     for (const AnimationChannelRecord& channel : tables_.channels.subspan(channels.first, channels.count))
     {
-        NodeSpan& span = spans[channel.node];
+        NodeSpan& span = spans[channel.target];
         switch (static_cast<AnimationPath>(channel.path))
         {
         case AnimationPath::translation:
@@ -195,7 +195,7 @@ std::vector<NodeSpan> PoseRegions::computeSpans(const Clip& clip, uint32_t part)
         case AnimationPath::scale:
             span.scale = fitVectorCurve(clip.times[part], tables_, channel);
             break;
-        case AnimationPath::weights:
+        default:
             break;
         }
     }

@@ -64,6 +64,12 @@ FittedChannel copyChannel(const AnimationTables& tables, const AnimationChannelR
     return fitted;
 }
 
+void copyChannels(const AnimationTables& tables, Range channels, FittedClip& clip)
+{
+    for (const AnimationChannelRecord& channel : recordsInRange(tables.channels, channels))
+        clip.channels.push_back(copyChannel(tables, channel));
+}
+
 /// Return a channel with one value at all times.
 FittedChannel constantChannel(const AnimationChannelRecord& channel, std::vector<float> value)
 {
@@ -178,13 +184,13 @@ private:
     /// does not move.
     bool isMeasured(const AnimationChannelRecord& channel) const
     {
-        return channelPath(channel) != AnimationPath::weights && tables_.nodes[channel.node].has_trs != 0;
+        return channelPath(channel) != AnimationPath::weights && tables_.nodes[channel.target].has_trs != 0;
     }
 
     /// Add a channel. It replaces an earlier channel for the same property.
     void addChannel(const AnimationChannelRecord& record)
     {
-        std::vector<Channel>& channels = channels_of_node_[record.node];
+        std::vector<Channel>& channels = channels_of_node_[record.target];
         std::erase_if(channels, [&](const Channel& other) { return other.record.path == record.path; });
         Channel channel{record, {}, 0};
         if (isMeasured(record))
@@ -249,16 +255,15 @@ private:
     /// Return the error in metres in world space for a deviation of 1.
     double metresPerUnit(const AnimationChannelRecord& channel, const NodeState& state) const
     {
-        const double farthest = reach_.farthest[channel.node];
+        const double farthest = reach_.farthest[channel.target];
         const double least = farthest < 0 ? state.model_size : kMinReach * state.model_size;
         switch (channelPath(channel))
         {
         case AnimationPath::rotation:
-            return 2 * std::max(state.stretch * reach_.scale[channel.node] * farthest, least);
+            return 2 * std::max(state.stretch * reach_.scale[channel.target] * farthest, least);
         case AnimationPath::scale:
-            return std::max(state.stretch * farthest, least / std::max(reach_.scale[channel.node], 1e-30));
-        case AnimationPath::translation:
-        case AnimationPath::weights:
+            return std::max(state.stretch * farthest, least / std::max(reach_.scale[channel.target], 1e-30));
+        default:
             break;
         }
         return state.stretch;
@@ -276,7 +281,7 @@ private:
         if (channelPath(channel.record) == AnimationPath::rotation)
             tolerance = std::clamp(tolerance, kSameChord, kMaxChord);
         if (channelPath(channel.record) == AnimationPath::scale)
-            tolerance = std::min(tolerance, kMaxChord * reach_.scale[channel.record.node]);
+            tolerance = std::min(tolerance, kMaxChord * reach_.scale[channel.record.target]);
         const double deviation = fitChannel(channel, tolerance);
         if (channelPath(channel.record) == AnimationPath::scale)
             state.scale += deviation;
@@ -289,7 +294,7 @@ private:
     double fitChannel(const Channel& channel, double tolerance)
     {
         const AnimationChannelRecord& record = channel.record;
-        const KeyValue rest = restValue(rest_.nodes[record.node], channelPath(record));
+        const KeyValue rest = restValue(rest_.nodes[record.target], channelPath(record));
         if (const double off = constantDeviation(tables_, record, rest); off <= tolerance)
             return off;
         if (channel.from_middle <= tolerance)
@@ -320,7 +325,7 @@ private:
         }
         const std::optional<std::vector<float>> weights = constantWeights(tables_, channel);
         const std::span<const float> rest =
-            recordsInRange(tables_.morph_weights, tables_.nodes[channel.node].morph_weights);
+            recordsInRange(tables_.morph_weights, tables_.nodes[channel.target].morph_weights);
         if (!weights)
             clip_.channels.push_back(copyChannel(tables_, channel));
         else if (!std::equal(rest.begin(),
@@ -345,14 +350,16 @@ private:
 FittedClip fitClip(const AnimationTables& tables, const AnimationRecord& animation, const SceneReach& scene,
                    const StatedError& stated)
 {
-    return ClipFitter(tables, animation, scene, stated).fit();
+    FittedClip clip = ClipFitter(tables, animation, scene, stated).fit();
+    copyChannels(tables, animation.light_channels, clip);
+    return clip;
 }
 
 FittedClip sourceClip(const AnimationTables& tables, const AnimationRecord& animation)
 {
     FittedClip clip;
-    for (const AnimationChannelRecord& channel : recordsInRange(tables.channels, animation.channels))
-        clip.channels.push_back(copyChannel(tables, channel));
+    copyChannels(tables, animation.channels, clip);
+    copyChannels(tables, animation.light_channels, clip);
     return clip;
 }
 

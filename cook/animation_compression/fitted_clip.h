@@ -21,7 +21,8 @@ struct FittedChannel
 
 struct FittedClip
 {
-    std::vector<FittedChannel> channels; ///< without the channels that equal the rest pose
+    /// without the channels that equal the rest pose; those of lights, all of them, come last
+    std::vector<FittedChannel> channels;
     /// allowed error, metres in world space; the largest of the models that the clip moves
     double stated_error = 0;
     double proven_error = 0; ///< upper bound for the error of any vertex at any time, metres in world space
@@ -37,7 +38,7 @@ struct StatedError
 
 /// Compress a clip. An error of a node moves its descendants' vertices by at most the node's reach times the
 /// error, so the errors of a chain of nodes add up. Each channel gets an equal share of the error that its
-/// ancestors have left.
+/// ancestors have left. Channels of lights stay unchanged.
 FittedClip fitClip(const formats::AnimationTables& tables, const formats::AnimationRecord& animation,
                    const SceneReach& scene, const StatedError& stated);
 

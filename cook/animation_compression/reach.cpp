@@ -81,9 +81,9 @@ ClipReach computeClipReach(const AnimationTables& tables, const AnimationRecord&
     std::vector<Box3d> translations(count), scales(count);
     for (const AnimationChannelRecord& channel : recordsInRange(tables.channels, animation.channels))
         if (channel.path == static_cast<uint32_t>(AnimationPath::translation))
-            animation_bounds::addValues(tables, channel, translations[channel.node]);
+            animation_bounds::addValues(tables, channel, translations[channel.target]);
         else if (channel.path == static_cast<uint32_t>(AnimationPath::scale))
-            animation_bounds::addValues(tables, channel, scales[channel.node]);
+            animation_bounds::addValues(tables, channel, scales[channel.target]);
 
     ClipReach reach{std::vector<double>(count), scene.own};
     for (auto at = scene.parents_first.rbegin(); at != scene.parents_first.rend(); ++at)

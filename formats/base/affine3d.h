@@ -15,6 +15,7 @@ namespace hearth
 struct Affine3d
 {
     double m[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
+    friend bool operator==(const Affine3d&, const Affine3d&) = default;
 };
 
 Affine3d operator*(const Affine3d& a, const Affine3d& b);

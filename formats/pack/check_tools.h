@@ -56,6 +56,9 @@ inline bool isNonNegative(float value)
     return std::isfinite(value) && value >= 0;
 }
 
+/// pi / 2 rounded up to a float, plus one unit in the last place for a writer's conversion from degrees.
+inline constexpr float kRightAngle = 1.5707965f;
+
 inline bool isPowerOfTwo(float value)
 {
     int exponent;

@@ -3,6 +3,7 @@
 #include "formats/codecs/channel_keys.h"
 #include "formats/pack/check_tools.h"
 #include "formats/pack/pack_check.h"
+#include "formats/records/animation_paths.h"
 
 #include <bit>
 
@@ -156,9 +157,9 @@ Status checkFloatKeys(const PackView& view, size_t i)
 Status checkPackedKeys(const PackView& view, size_t i, uint64_t& next_word)
 {
     const AnimationChannelRecord& channel = view.channels()[i];
-    if (isSpline(channel) || channel.path == static_cast<uint32_t>(AnimationPath::weights))
+    if (isSpline(channel) || channel.path >= static_cast<uint32_t>(AnimationPath::weights))
         return makeError(view, Issue::meaning_value, "channel", i,
-                         "splines and morph weights cannot be packed");
+                         "splines, morph weights and lights cannot be packed");
     const auto tooWide = [](uint8_t bits) { return bits > kMaxKeyFieldBits; };
     if (std::any_of(std::begin(channel.value_bits), std::end(channel.value_bits), tooWide) ||
         tooWide(channel.time_bits))
@@ -204,29 +205,73 @@ Status checkTimes(const PackView& view, const TimeOrderTable& order, size_t i)
     return success();
 }
 
-/// Check a channel.
-/// next_word  as for checkPackedKeys
-Status checkChannel(const PackView& view, const TimeOrderTable& order, size_t i, uint64_t& next_word)
+/// Check path, target and number of components of a channel.
+/// of_light  whether the channel belongs to the channels of lights
+Status checkPath(const PackView& view, size_t i, bool of_light)
 {
     const AnimationChannelRecord& channel = view.channels()[i];
-    if (channel.node >= view.nodes().size())
+    if (channel.path >= kAnimationPaths.size() || kAnimationPaths[channel.path].of_light != of_light)
+        return makeError(view, Issue::meaning_value, "channel", i, "path " + std::to_string(channel.path));
+    if (channel.target >= (of_light ? view.lights().size() : view.nodes().size()))
         return makeError(view, Issue::meaning_reference, "channel", i,
-                         "node " + std::to_string(channel.node));
-    if (channel.path > static_cast<uint32_t>(AnimationPath::weights) ||
-        channel.interpolation > static_cast<uint32_t>(Interpolation::cubic_spline) ||
-        channel.encoding > static_cast<uint32_t>(KeyEncoding::packed))
-        return makeError(view, Issue::meaning_value, "channel", i,
-                         "its path, interpolation or encoding does not exist");
-    const bool weights = channel.path == static_cast<uint32_t>(AnimationPath::weights);
-    const uint32_t expected = channel.path == static_cast<uint32_t>(AnimationPath::rotation) ? 4 : 3;
-    if (weights ? channel.components == 0 : channel.components != expected)
+                         (of_light ? "light " : "node ") + std::to_string(channel.target));
+    const uint32_t expected = kAnimationPaths[channel.path].components;
+    if (expected == 0 ? channel.components == 0 : channel.components != expected)
         return makeError(view, Issue::meaning_value, "channel", i,
                          std::to_string(channel.components) + " components");
+    return success();
+}
+
+/// Check the keys of a light's channel, which are inside their chunk. Tangents may have any value.
+Status checkLightValues(const PackView& view, size_t i)
+{
+    const AnimationChannelRecord& channel = view.channels()[i];
+    const auto path = static_cast<AnimationPath>(channel.path);
+    const bool cone = path == AnimationPath::light_inner_cone || path == AnimationPath::light_outer_cone;
+    const bool range = path == AnimationPath::light_range;
+    const ChannelKeys keys(view.keys(), view.keyBits(), channel);
+    for (uint32_t key = 0; key < keys.count(); ++key)
+        for (const double value : keys.value(key, 0, channel.components))
+            if (value < 0 || (cone && value > double{kRightAngle}))
+                return makeError(view, Issue::meaning_value, "channel", i,
+                                 "key " + std::to_string(key) + " is not possible");
+    for (uint32_t key = 0; range && key < keys.count(); ++key)
+        if (!(keys.value(key, 0, 1)[0] > 0))
+            return makeError(view, Issue::meaning_value, "channel", i,
+                             "the range of key " + std::to_string(key) + " is 0");
+    return success();
+}
+
+/// Check a channel.
+/// next_word  as for checkPackedKeys
+/// of_light   as for checkPath
+Status checkChannel(const PackView& view, const TimeOrderTable& order, size_t i, bool of_light,
+                    uint64_t& next_word)
+{
+    const AnimationChannelRecord& channel = view.channels()[i];
+    HEARTH_TRY(checkPath(view, i, of_light));
+    if (channel.interpolation > static_cast<uint32_t>(Interpolation::cubic_spline) ||
+        channel.encoding > static_cast<uint32_t>(KeyEncoding::packed))
+        return makeError(view, Issue::meaning_value, "channel", i,
+                         "its interpolation or encoding does not exist");
     if (channel.key_count == 0)
         return makeError(view, Issue::meaning_value, "channel", i, "it has no keys");
 
     HEARTH_TRY(isPacked(channel) ? checkPackedKeys(view, i, next_word) : checkFloatKeys(view, i));
-    return checkTimes(view, order, i);
+    HEARTH_TRY(checkTimes(view, order, i));
+    return of_light ? checkLightValues(view, i) : success();
+}
+
+/// Check the channels of an animation, which lie inside their table.
+/// next_word  as for checkPackedKeys
+Status checkChannels(const PackView& view, const TimeOrderTable& order, const AnimationRecord& animation,
+                     uint64_t& next_word)
+{
+    for (uint32_t i = 0; i < animation.channels.count; ++i)
+        HEARTH_TRY(checkChannel(view, order, animation.channels.first + i, false, next_word));
+    for (uint32_t i = 0; i < animation.light_channels.count; ++i)
+        HEARTH_TRY(checkChannel(view, order, animation.light_channels.first + i, true, next_word));
+    return success();
 }
 
 /// Check an animation. A clip may continue after its last key: a node at rest needs no keys.
@@ -234,8 +279,10 @@ Status checkAnimation(const PackView& view, size_t i)
 {
     const AnimationRecord& animation = view.animations()[i];
     float last = 0;
-    for (const AnimationChannelRecord& channel : recordsInRange(view.channels(), animation.channels))
-        last = std::max(last, ChannelKeys(view.keys(), view.keyBits(), channel).time(channel.key_count - 1));
+    for (const Range channels : {animation.channels, animation.light_channels})
+        for (const AnimationChannelRecord& channel : recordsInRange(view.channels(), channels))
+            last =
+                std::max(last, ChannelKeys(view.keys(), view.keyBits(), channel).time(channel.key_count - 1));
     if (!finite(animation.duration) || animation.duration < last)
         return makeError(view, Issue::meaning_value, "animation", i,
                          "duration " + std::to_string(animation.duration) + ", its last key is at " +
@@ -287,13 +334,16 @@ Status checkAnimations(const PackView& view)
         return Error{Issue::meaning_value, view.name(), chunkName(kChunkKeys, 0), "a key is not finite"};
     RangeCursor channels(view, "animation", "channel", view.channels().size());
     for (size_t i = 0; i < view.animations().size(); ++i)
+    {
         HEARTH_TRY(channels.take(i, view.animations()[i].channels));
+        HEARTH_TRY(channels.take(i, view.animations()[i].light_channels));
+    }
     HEARTH_TRY(channels.finish());
 
     const TimeOrderTable order(view.keys());
     uint64_t next_word = 0;
-    for (size_t i = 0; i < view.channels().size(); ++i)
-        HEARTH_TRY(checkChannel(view, order, i, next_word));
+    for (const AnimationRecord& animation : view.animations())
+        HEARTH_TRY(checkChannels(view, order, animation, next_word));
     for (size_t i = 0; i < view.animations().size(); ++i)
         HEARTH_TRY(checkAnimation(view, i));
     return success();

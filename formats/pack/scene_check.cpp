@@ -11,8 +11,7 @@ namespace hearth::formats::check
 namespace
 {
 
-// pi / 2 and pi rounded up to a float, plus one unit in the last place for a writer's conversion from degrees
-constexpr float kRightAngle = 1.5707965f;
+// pi rounded up to a float, plus one unit in the last place for a writer's conversion from degrees
 constexpr float kStraightAngle = 3.1415930f;
 
 bool unitQuaternion(Float4 q)
@@ -155,6 +154,13 @@ bool validOrthographic(const CameraRecord& camera)
            camera.z_far > camera.z_near;
 }
 
+bool validFlicker(const LightRecord& light)
+{
+    if (light.flicker_rate == 0)
+        return light.flicker_amplitude == 0 && light.flicker_seed == 0;
+    return isNonNegative(light.flicker_rate) && inside(light.flicker_amplitude, 0, 1);
+}
+
 } // namespace
 
 Status checkNodeTree(const PackView& view)
@@ -218,8 +224,8 @@ Status checkLights(const PackView& view)
         if (!inside(light.inner_cone_rad, 0, kRightAngle) ||
             !inside(light.outer_cone_rad, light.inner_cone_rad, kRightAngle))
             return makeError(view, Issue::meaning_value, "light", i, "its cone is not possible");
-        if (light.reserved != 0)
-            return makeError(view, Issue::meaning_padding, "light", i, "a reserved field is not 0");
+        if (!validFlicker(light))
+            return makeError(view, Issue::meaning_value, "light", i, "its flicker is not possible");
     }
     return success();
 }

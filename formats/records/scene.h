@@ -84,7 +84,8 @@ enum class LightType : uint32_t
     spot = shared::kLightSpot,
 };
 
-/// Punctual light, as in KHR_lights_punctual. It shines along its local -Z.
+/// Punctual light, as in KHR_lights_punctual. It shines along its local -Z. Its flicker:
+/// formats/scene/light_flicker.h.
 struct LightRecord
 {
     StringRef name;
@@ -95,7 +96,9 @@ struct LightRecord
     float range;
     float inner_cone_rad;
     float outer_cone_rad;
-    uint32_t reserved;
+    float flicker_rate;
+    float flicker_amplitude;
+    uint32_t flicker_seed;
     Affine3 world_from_light;
 };
 
@@ -215,6 +218,7 @@ struct AnimationRecord
 {
     StringRef name;
     Range channels;
+    Range light_channels;
     float duration;
     float error;
 };
@@ -225,6 +229,11 @@ enum class AnimationPath : uint32_t
     rotation = 1,
     scale = 2,
     weights = 3,
+    light_color = 4,
+    light_intensity = 5,
+    light_range = 6,
+    light_inner_cone = 7,
+    light_outer_cone = 8,
 };
 
 enum class Interpolation : uint32_t
@@ -245,10 +254,10 @@ inline constexpr uint32_t kMaxKeyFieldBits = 24;
 
 /// Channel of an animation. Floats: key_count times, and key_count * components values, times three
 /// (in-tangent, value, out-tangent) for a cubic spline. Packed: see FORMAT.md. formats/codecs/channel_keys.h
-/// reads both.
+/// reads both. formats/records/animation_paths.h lists what channels animate.
 struct AnimationChannelRecord
 {
-    uint32_t node;
+    uint32_t target;
     uint32_t path;
     uint32_t interpolation;
     uint32_t components;
@@ -294,7 +303,7 @@ HEARTH_RECORD(
     HEARTH_FIELD(hearth::formats::CameraRecord, z_near, "metres"),
     HEARTH_FIELD(hearth::formats::CameraRecord, z_far, "metres; 0: infinite"),
     HEARTH_FIELD(hearth::formats::CameraRecord, world_from_camera, "row-major 3x4; looks along -Z"));
-HEARTH_RECORD(hearth::formats::LightRecord, 96,
+HEARTH_RECORD(hearth::formats::LightRecord, 104,
               HEARTH_FIELD(hearth::formats::LightRecord, name, "may be empty"),
               HEARTH_FIELD(hearth::formats::LightRecord, type, "0 directional, 1 point, 2 spot"),
               HEARTH_FIELD(hearth::formats::LightRecord, node, "node it came from"),
@@ -303,7 +312,9 @@ HEARTH_RECORD(hearth::formats::LightRecord, 96,
               HEARTH_FIELD(hearth::formats::LightRecord, range, "metres; 0: unlimited"),
               HEARTH_FIELD(hearth::formats::LightRecord, inner_cone_rad, "half-angle"),
               HEARTH_FIELD(hearth::formats::LightRecord, outer_cone_rad, "half-angle"),
-              HEARTH_FIELD(hearth::formats::LightRecord, reserved, "0"),
+              HEARTH_FIELD(hearth::formats::LightRecord, flicker_rate, "hertz; 0: the light is steady"),
+              HEARTH_FIELD(hearth::formats::LightRecord, flicker_amplitude, "0 to 1, share of the intensity"),
+              HEARTH_FIELD(hearth::formats::LightRecord, flicker_seed, "of the noise"),
               HEARTH_FIELD(hearth::formats::LightRecord, world_from_light, "row-major 3x4; shines along -Z"));
 HEARTH_RECORD(hearth::formats::ShadowSphereRecord, 32,
               HEARTH_FIELD(hearth::formats::ShadowSphereRecord, node, "node it came from"),
@@ -357,18 +368,20 @@ HEARTH_RECORD(hearth::formats::JointRecord, 64, HEARTH_FIELD(hearth::formats::Jo
               HEARTH_FIELD(hearth::formats::JointRecord, joint_from_bind,
                            "inverse bind matrix, row-major 3x4"));
 HEARTH_RECORD(
-    hearth::formats::AnimationRecord, 24,
+    hearth::formats::AnimationRecord, 32,
     HEARTH_FIELD(hearth::formats::AnimationRecord, name, "may be empty"),
-    HEARTH_FIELD(hearth::formats::AnimationRecord, channels, "records of chunk ACHN"),
+    HEARTH_FIELD(hearth::formats::AnimationRecord, channels, "records of chunk ACHN, of nodes"),
+    HEARTH_FIELD(hearth::formats::AnimationRecord, light_channels,
+                 "records of chunk ACHN, of lights, right after those of nodes"),
     HEARTH_FIELD(hearth::formats::AnimationRecord, duration,
                  "seconds: not before the last key of all channels"),
     HEARTH_FIELD(hearth::formats::AnimationRecord, error,
                  "metres in the world: how far a vertex may be from where the source's clip takes it"));
 HEARTH_RECORD(
     hearth::formats::AnimationChannelRecord, 40,
-    HEARTH_FIELD(hearth::formats::AnimationChannelRecord, node, "node that moves"),
+    HEARTH_FIELD(hearth::formats::AnimationChannelRecord, target, "node, or light"),
     HEARTH_FIELD(hearth::formats::AnimationChannelRecord, path,
-                 "0 translation, 1 rotation, 2 scale, 3 morph weights"),
+                 "0 translation, 1 rotation, 2 scale, 3 morph weights, 4 to 8 property of a light"),
     HEARTH_FIELD(hearth::formats::AnimationChannelRecord, interpolation, "0 step, 1 linear, 2 cubic spline"),
     HEARTH_FIELD(hearth::formats::AnimationChannelRecord, components, "floats of one value"),
     HEARTH_FIELD(hearth::formats::AnimationChannelRecord, key_count, ""),

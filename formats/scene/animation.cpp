@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 namespace hearth::formats
 {
@@ -101,7 +103,7 @@ void sampleChannel(const AnimationTables& tables, const AnimationChannelRecord& 
     HEARTH_RUNTIME_ASSERT(channel.key_count > 0);
     const ChannelKeys keys(tables.keys, tables.key_bits, channel);
     const KeyInterval interval = findKeyInterval(keys, time);
-    NodePose& node = pose.nodes[channel.node];
+    NodePose& node = pose.nodes[channel.target];
     const auto vector = [&]
     {
         const KeyValue value = interpolateValue(keys, interval, 0, 3);
@@ -120,12 +122,58 @@ void sampleChannel(const AnimationTables& tables, const AnimationChannelRecord& 
         break;
     case AnimationPath::weights:
     {
-        const Range weights = tables.nodes[channel.node].morph_weights;
+        const Range weights = tables.nodes[channel.target].morph_weights;
         for (uint32_t i = 0; i < std::min(weights.count, channel.components); ++i)
             pose.morph_weights[weights.first + i] = interpolateValue(keys, interval, i, 1)[0];
         break;
     }
+    default: // of a light
+        break;
     }
+}
+
+float toFloat(double value, double min, double max)
+{
+    return static_cast<float>(std::clamp(value, min, max));
+}
+
+void setLightProperty(LightRecord& light, AnimationPath path, const KeyValue& value)
+{
+    constexpr double kUnbounded = std::numeric_limits<float>::max();
+    constexpr double kRightAngle = std::numbers::pi_v<float> / 2;
+    switch (path)
+    {
+    case AnimationPath::light_color:
+        light.color = {toFloat(value[0], 0, kUnbounded), toFloat(value[1], 0, kUnbounded),
+                       toFloat(value[2], 0, kUnbounded)};
+        break;
+    case AnimationPath::light_intensity:
+        light.intensity = toFloat(value[0], 0, kUnbounded);
+        break;
+    case AnimationPath::light_range:
+        light.range = toFloat(value[0], double{kMinAnimatedRange}, kUnbounded);
+        break;
+    case AnimationPath::light_inner_cone:
+        light.inner_cone_rad = toFloat(value[0], 0, kRightAngle);
+        break;
+    case AnimationPath::light_outer_cone:
+        light.outer_cone_rad = toFloat(value[0], 0, kRightAngle);
+        break;
+    default: // of a node
+        break;
+    }
+}
+
+float lerpFloat(float from, float to, double weight)
+{
+    return static_cast<float>(lerp(double{from}, double{to}, weight));
+}
+
+float blendRanges(float from, float to, double weight)
+{
+    if (weight == 0 || weight == 1)
+        return weight == 0 ? from : to;
+    return from == 0 || to == 0 ? 0 : lerpFloat(from, to, weight);
 }
 
 } // namespace
@@ -153,6 +201,43 @@ void sampleAnimation(const AnimationTables& tables, const AnimationRecord& anima
     for (const AnimationChannelRecord& channel :
          tables.channels.subspan(animation.channels.first, animation.channels.count))
         sampleChannel(tables, channel, time, pose);
+}
+
+void sampleLights(const AnimationTables& tables, const AnimationRecord& animation, double time,
+                  std::span<LightRecord> lights)
+{
+    const auto channels =
+        tables.channels.subspan(animation.light_channels.first, animation.light_channels.count);
+    for (const AnimationChannelRecord& channel : channels)
+    {
+        const ChannelKeys keys(tables.keys, tables.key_bits, channel);
+        setLightProperty(lights[channel.target], static_cast<AnimationPath>(channel.path),
+                         interpolateValue(keys, findKeyInterval(keys, time), 0, channel.components));
+    }
+    // one cone may be animated, or both, one after the other
+    for (const AnimationChannelRecord& channel : channels)
+    {
+        LightRecord& light = lights[channel.target];
+        light.inner_cone_rad = std::min(light.inner_cone_rad, light.outer_cone_rad);
+    }
+}
+
+void blendLights(std::span<const LightRecord> from, std::span<const LightRecord> to, double weight,
+                 std::span<LightRecord> result)
+{
+    HEARTH_RUNTIME_ASSERT(from.size() == to.size() && from.size() == result.size());
+    for (size_t i = 0; i < from.size(); ++i)
+    {
+        const LightRecord &a = from[i], &b = to[i];
+        LightRecord light = a;
+        light.color = {lerpFloat(a.color.x, b.color.x, weight), lerpFloat(a.color.y, b.color.y, weight),
+                       lerpFloat(a.color.z, b.color.z, weight)};
+        light.intensity = lerpFloat(a.intensity, b.intensity, weight);
+        light.range = blendRanges(a.range, b.range, weight);
+        light.inner_cone_rad = lerpFloat(a.inner_cone_rad, b.inner_cone_rad, weight);
+        light.outer_cone_rad = lerpFloat(a.outer_cone_rad, b.outer_cone_rad, weight);
+        result[i] = light;
+    }
 }
 
 Quaternion slerp(const Quaternion& from, const Quaternion& to, double weight)
@@ -210,6 +295,30 @@ std::vector<uint32_t> nodesParentsFirst(std::span<const NodeRecord> nodes)
         chain.clear();
     }
     return order;
+}
+
+std::vector<uint8_t> findAnimatedNodes(const AnimationTables& tables, std::span<const uint32_t> parents_first)
+{
+    std::vector<uint8_t> animated(tables.nodes.size(), 0);
+    for (const AnimationRecord& animation : tables.animations)
+        for (const AnimationChannelRecord& channel :
+             tables.channels.subspan(animation.channels.first, animation.channels.count))
+            if (channel.path != static_cast<uint32_t>(AnimationPath::weights))
+                animated[channel.target] = 1;
+    for (const uint32_t node : parents_first)
+        if (const uint32_t parent = tables.nodes[node].parent;
+            parent != kInvalidIndex && animated[parent] != 0)
+            animated[node] = 1;
+    return animated;
+}
+
+Affine3d nodeFromObject(const Affine3d& world_from_node, const Affine3& world_from_object)
+{
+    const auto narrow = narrowed(world_from_node);
+    if (narrow && *narrow == world_from_object)
+        return {};
+    const auto node_from_world = inverted(world_from_node);
+    return node_from_world ? *node_from_world * widened(world_from_object) : Affine3d{};
 }
 
 void poseNodes(const AnimationTables& tables, const ScenePose& pose, std::span<const uint32_t> parents_first,

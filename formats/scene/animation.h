@@ -1,6 +1,6 @@
-// Computes poses: the effect of a scene's clips on its nodes, as the format defines it (FORMAT.md, "Skins and
-// animations"). The cooker bounds the results of these functions, the runtime draws them.
-// glTF 2.0, 3.7.3.3 (skinning), 3.11 and appendix C (animation).
+// Computes poses: the effect of a scene's clips on its nodes and lights, as the format defines it (FORMAT.md,
+// "Skins and animations"). The cooker bounds the results of these functions, the runtime draws them.
+// glTF 2.0, 3.7.3.3 (skinning), 3.11 and appendix C (animation); KHR_animation_pointer.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -59,6 +59,22 @@ ScenePose restPose(const AnimationTables& tables);
 void sampleAnimation(const AnimationTables& tables, const AnimationRecord& animation, double time,
                      ScenePose& pose);
 
+/// Minimum range of a light that a clip changes, metres: a range of 0 would be an unlimited one.
+inline constexpr float kMinAnimatedRange = 1e-3f;
+
+/// Set the properties that the animation's channels change in its lights, and leave the rest. Values that a
+/// spline takes out of their range are clamped. Allocates nothing.
+/// time    as in sampleAnimation
+/// lights  all lights of the pack
+void sampleLights(const AnimationTables& tables, const AnimationRecord& animation, double time,
+                  std::span<LightRecord> lights);
+
+/// Blend colours, intensities, ranges and cones linearly; all else is that of `from`. Between an unlimited
+/// range and another the range is unlimited. `result` may be one of the two inputs.
+/// weight  0: `from`, 1: `to`
+void blendLights(std::span<const LightRecord> from, std::span<const LightRecord> to, double weight,
+                 std::span<LightRecord> result);
+
 /// Blend node by node, in the space of their parents: translations, scales and morph weights linearly,
 /// rotations along the shorter arc. Allocates nothing if `result` has been a pose of the same tables;
 /// `result` may be one of the two inputs.
@@ -67,6 +83,15 @@ void blendPoses(const ScenePose& from, const ScenePose& to, double weight, Scene
 
 /// Return the nodes in an order in which each parent comes before its children.
 std::vector<uint32_t> nodesParentsFirst(std::span<const NodeRecord> nodes);
+
+/// Return for each node 1 where a clip moves the node or one of its ancestors.
+/// parents_first  order of nodesParentsFirst
+std::vector<uint8_t> findAnimatedNodes(const AnimationTables& tables,
+                                       std::span<const uint32_t> parents_first);
+
+/// Return the transform between a node and an object that it carries, from their transforms at rest: identity
+/// where they coincide.
+Affine3d nodeFromObject(const Affine3d& world_from_node, const Affine3& world_from_object);
 
 /// Compute the world transform of every node. Allocates nothing.
 /// parents_first    order of nodesParentsFirst

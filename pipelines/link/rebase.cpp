@@ -2,6 +2,7 @@
 #include "pipelines/link/rebase.h"
 
 #include "formats/codecs/channel_keys.h"
+#include "formats/records/animation_paths.h"
 
 namespace hearth::link
 {
@@ -141,11 +142,13 @@ void rebase(AnimationRecord& animation, const TableOffsets& offsets)
 {
     addOffset(animation.name, offsets.strings);
     addOffset(animation.channels, offsets.channels);
+    addOffset(animation.light_channels, offsets.channels);
 }
 
 void rebase(AnimationChannelRecord& channel, const TableOffsets& offsets)
 {
-    addOffset(channel.node, offsets.nodes);
+    const bool of_light = kAnimationPaths[channel.path].of_light;
+    addOffset(channel.target, of_light ? offsets.lights : offsets.nodes);
     addOffset(channel.first_time, offsets.keys);
     addOffset(channel.first_value, offsets.keys);
     if (isPacked(channel))

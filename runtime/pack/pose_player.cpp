@@ -7,26 +7,6 @@
 namespace hearth::pack
 {
 
-namespace
-{
-
-/// Return for each node 1 where a clip moves the node or one of its ancestors.
-std::vector<uint8_t> findAnimatedNodes(const formats::AnimationTables& tables,
-                                       std::span<const uint32_t> parents_first)
-{
-    std::vector<uint8_t> animated(tables.nodes.size(), 0);
-    for (const formats::AnimationChannelRecord& channel : tables.channels)
-        if (channel.path != static_cast<uint32_t>(formats::AnimationPath::weights))
-            animated[channel.node] = 1;
-    for (const uint32_t node : parents_first)
-        if (const uint32_t parent = tables.nodes[node].parent;
-            parent != kInvalidIndex && animated[parent] != 0)
-            animated[node] = 1;
-    return animated;
-}
-
-} // namespace
-
 PosePlayer::PosePlayer(const formats::PackView& pack)
     : tables_(formats::animationTables(pack)),
       instances_(pack.instances()),
@@ -37,7 +17,7 @@ PosePlayer::PosePlayer(const formats::PackView& pack)
       world_from_node_(tables_.nodes.size())
 {
     formats::poseNodes(tables_, rest_, parents_first_, world_from_node_);
-    const std::vector<uint8_t> animated = findAnimatedNodes(tables_, parents_first_);
+    const std::vector<uint8_t> animated = formats::findAnimatedNodes(tables_, parents_first_);
     for (uint32_t i = 0; i < instances_.size(); ++i)
         if (const auto* mesh = findDeformedMesh(pack, instances_[i].mesh))
             addDeformed(i, *mesh, pack.meshes()[mesh->mesh].morph_target_count);
@@ -50,21 +30,11 @@ PosePlayer::PosePlayer(const formats::PackView& pack)
     apply(rest_);
 }
 
-/// Return the transform of instancing between a node and its instance: identity where they coincide.
-Affine3d PosePlayer::nodeFromObject(const formats::InstanceRecord& instance) const
-{
-    const Affine3d& world_from_node = world_from_node_[instance.node];
-    const auto narrow = narrowed(world_from_node);
-    if (narrow && *narrow == instance.world_from_object)
-        return {};
-    const auto node_from_world = inverted(world_from_node);
-    return node_from_world ? *node_from_world * widened(instance.world_from_object) : Affine3d{};
-}
-
 void PosePlayer::addRigid(uint32_t instance)
 {
     const formats::InstanceRecord& record = instances_[instance];
-    rigid_.push_back({record.node, nodeFromObject(record)});
+    rigid_.push_back(
+        {record.node, formats::nodeFromObject(world_from_node_[record.node], record.world_from_object)});
     placed_.push_back({instance, record.world_from_object});
 }
 
@@ -75,7 +45,9 @@ void PosePlayer::addDeformed(uint32_t instance, const formats::DeformedMeshRecor
     deformed_.push_back({.instance = instance,
                          .skin = mesh.skin,
                          .node = record.node,
-                         .node_from_object = skinned ? Affine3d{} : nodeFromObject(record),
+                         .node_from_object = skinned ? Affine3d{}
+                                                     : formats::nodeFromObject(world_from_node_[record.node],
+                                                                               record.world_from_object),
                          .morph_weights = tables_.nodes[record.node].morph_weights,
                          .first_joint = palettes_.size(),
                          .joint_count = skinned ? tables_.skins[mesh.skin].joints.count : 1,
@@ -93,11 +65,13 @@ void PosePlayer::resetTo(formats::ScenePose& pose) const
 
 void PosePlayer::rest()
 {
+    clips_ = {};
     apply(rest_);
 }
 
 void PosePlayer::play(ClipTime clip)
 {
+    clips_ = {.from = clip};
     resetTo(from_);
     formats::sampleAnimation(tables_, tables_.animations[clip.animation], clip.seconds, from_);
     apply(from_);
@@ -105,6 +79,7 @@ void PosePlayer::play(ClipTime clip)
 
 void PosePlayer::blend(ClipTime from, ClipTime to, double weight)
 {
+    clips_ = {.from = from, .to = to, .weight = weight};
     resetTo(from_);
     resetTo(to_);
     formats::sampleAnimation(tables_, tables_.animations[from.animation], from.seconds, from_);

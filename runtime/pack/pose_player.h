@@ -22,6 +22,14 @@ struct ClipTime
     double seconds = 0;
 };
 
+/// Clips that make a pose; without any the scene is at rest.
+struct PlayedClips
+{
+    std::optional<ClipTime> from{};
+    std::optional<ClipTime> to{}; ///< blended with `from`
+    double weight = 0;            ///< 0: `from`, 1: `to`
+};
+
 /// Transform of a rigid instance that a clip has moved.
 struct MovedInstance
 {
@@ -49,6 +57,12 @@ public:
     void play(ClipTime clip);
     /// weight  0: `from`, 1: `to`
     void blend(ClipTime from, ClipTime to, double weight);
+
+    /// Return the arguments of the last call of rest, play or blend.
+    const PlayedClips& clips() const { return clips_; }
+
+    /// Return the world transform of each node in the pose.
+    std::span<const Affine3d> worldFromNode() const { return world_from_node_; }
 
     /// Return the rigid instances whose transform changed in the last call of rest, play or blend. Valid
     /// until the next such call.
@@ -78,7 +92,6 @@ private:
         size_t first_weight; ///< index in weights_
         uint32_t target_count;
     };
-    Affine3d nodeFromObject(const formats::InstanceRecord& instance) const;
     void addRigid(uint32_t instance);
     void addDeformed(uint32_t instance, const formats::DeformedMeshRecord& mesh, uint32_t targets);
     void resetTo(formats::ScenePose& pose) const;
@@ -90,6 +103,7 @@ private:
     std::span<const formats::InstanceRecord> instances_;
     formats::ScenePose rest_, from_, to_;
     std::vector<uint32_t> parents_first_;
+    PlayedClips clips_;
     std::vector<Affine3d> world_from_node_;
     std::vector<RigidInstance> rigid_;
     std::vector<DeformedInstance> deformed_;

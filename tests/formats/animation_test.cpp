@@ -48,7 +48,7 @@ struct Scene
                     const std::vector<float>& times, const std::vector<float>& values)
     {
         AnimationChannelRecord channel{};
-        channel.node = node;
+        channel.target = node;
         channel.path = static_cast<uint32_t>(path);
         channel.interpolation = static_cast<uint32_t>(interpolation);
         channel.components = components;

@@ -337,7 +337,7 @@ TEST_F(SourceSpace, isASettingOfSources)
     EXPECT_EQ(sandbox_.run({kHearth, "cook", "b.obj", "-o", "b.hearth"}).exit_code, 78);
 }
 
-TEST_F(SourceSpace, ofRootsOutsideOfTheSceneIsTheSame)
+TEST_F(SourceSpace, ofRootsOutsideOfTheSceneAndOfLightsIsTheSame)
 {
     auto part = import::PartBuilder::create(sandbox_ / "b.part", "b.gltf");
     ASSERT_TRUE(part.ok());
@@ -357,6 +357,20 @@ TEST_F(SourceSpace, ofRootsOutsideOfTheSceneIsTheSame)
     light.world_from_light = Affine3{};
     light.range = 1e35f;
     part->lights = {light};
+    // a range of two keys, which two channels share, and an intensity
+    part->keys = {0, 1, 2, 4};
+    AnimationChannelRecord channel{};
+    channel.path = static_cast<uint32_t>(AnimationPath::light_range);
+    channel.components = 1;
+    channel.key_count = 2;
+    channel.first_value = 2;
+    AnimationChannelRecord other = channel;
+    other.path = static_cast<uint32_t>(AnimationPath::light_intensity);
+    other.first_value = 0;
+    part->channels = {channel, channel, other};
+    ASSERT_TRUE(import::convertToMetres({0.5, import::UpAxis::y}, *part).ok());
+    EXPECT_EQ(part->keys, (std::vector<float>{0, 1, 1, 2}));
+    EXPECT_EQ(part->lights[0].range, 0.5e35f);
     const Status status = import::convertToMetres({1e9, import::UpAxis::y}, *part);
     ASSERT_FALSE(status.ok());
     EXPECT_EQ(status.error().issue, Issue::input_too_large);

@@ -388,6 +388,9 @@ void addScene(PackModel& pack)
         light.color = {1, 0.9f, 0.8f};
         light.intensity = 10;
         light.outer_cone_rad = 0.5f;
+        light.flicker_rate = type == LightType::point ? 8.0f : 0;
+        light.flicker_amplitude = type == LightType::point ? 0.25f : 0;
+        light.flicker_seed = type == LightType::point ? 7 : 0;
         light.world_from_light = Affine3{};
         pack.lights.push_back(light);
     }
@@ -445,6 +448,8 @@ void addAnimation(PackModel& pack)
     pack.keys.insert(pack.keys.end(), {1, 0, 0, 0.5f, 0, 0, 0, 0});
     const auto first_weight = static_cast<uint32_t>(pack.keys.size());
     pack.keys.insert(pack.keys.end(), {0, 1});
+    const auto first_intensity = static_cast<uint32_t>(pack.keys.size());
+    pack.keys.insert(pack.keys.end(), {10, 0, 0, 0.5f, 0, 0, 1, 0});
     const auto channel = [](AnimationPath path, Interpolation interpolation)
     {
         AnimationChannelRecord record{};
@@ -453,24 +458,24 @@ void addAnimation(PackModel& pack)
         return record;
     };
     AnimationChannelRecord move = channel(AnimationPath::translation, Interpolation::linear);
-    move.node = 1;
+    move.target = 1;
     move.components = 3;
     move.key_count = 3;
     move.first_value = 3;
     AnimationChannelRecord turn = channel(AnimationPath::rotation, Interpolation::cubic_spline);
-    turn.node = 2;
+    turn.target = 2;
     turn.components = 4;
     turn.key_count = 2;
     turn.first_value = first_rotation;
     AnimationChannelRecord morph = channel(AnimationPath::weights, Interpolation::step);
-    morph.node = 3;
+    morph.target = 3;
     morph.components = 1;
     morph.key_count = 2;
     morph.first_value = first_weight;
     // packed: the times 0 and 2 of the clip above, x from 1 in steps of a half; two half turns, about x and
     // about y
     AnimationChannelRecord packed_move = channel(AnimationPath::translation, Interpolation::linear);
-    packed_move.node = 1;
+    packed_move.target = 1;
     packed_move.components = 3;
     packed_move.key_count = 2;
     packed_move.first_value = first_packed;
@@ -485,10 +490,21 @@ void addAnimation(PackModel& pack)
     packed_turn.value_bits[0] = 0;
     packed_turn.time_bits = 0;
     pack.key_bits = {0u | 3u << 2 | 2u << 6 | 15u << 8, 0u | 1u << 2};
-    pack.channels = {move, turn, morph, packed_move, packed_turn};
-    pack.animations.push_back({intern(pack, "move"), {0, 2}, 2, 0});
-    pack.animations.push_back({intern(pack, "morph"), {2, 1}, 1, 0});
-    pack.animations.push_back({intern(pack, "packed"), {3, 2}, 2.5f, 0.25f});
+    // a lamp that goes out, and a spot whose cone opens: a spline of two angles, tangents 0
+    AnimationChannelRecord fade = channel(AnimationPath::light_intensity, Interpolation::linear);
+    fade.target = 1;
+    fade.components = 1;
+    fade.key_count = 2;
+    fade.first_value = first_intensity;
+    AnimationChannelRecord open = channel(AnimationPath::light_outer_cone, Interpolation::cubic_spline);
+    open.target = 2;
+    open.components = 1;
+    open.key_count = 2;
+    open.first_value = first_intensity + 2;
+    pack.channels = {move, turn, morph, packed_move, packed_turn, fade, open};
+    pack.animations.push_back({intern(pack, "move"), {0, 2}, {2, 0}, 2, 0});
+    pack.animations.push_back({intern(pack, "morph"), {2, 1}, {3, 0}, 1, 0});
+    pack.animations.push_back({intern(pack, "packed"), {3, 2}, {5, 2}, 2.5f, 0.25f});
 }
 
 } // namespace

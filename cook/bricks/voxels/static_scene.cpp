@@ -95,9 +95,10 @@ void forEachCutCluster(const PackView& part, const MeshRecord& mesh, float error
 std::vector<bool> findAnimatedNodes(const PackView& scene)
 {
     std::vector<bool> moved(scene.nodes().size());
-    for (const AnimationChannelRecord& channel : scene.channels())
-        if (channel.node < moved.size())
-            moved[channel.node] = true;
+    for (const AnimationRecord& animation : scene.animations())
+        for (const AnimationChannelRecord& channel : recordsInRange(scene.channels(), animation.channels))
+            if (channel.target < moved.size())
+                moved[channel.target] = true;
     // repeat, because parents may follow their children in the table
     for (bool changed = true; changed;)
     {

@@ -152,10 +152,15 @@ Json sceneJson(const PackView& pack, const PackSummary& summary)
     const auto light = [&](uint32_t i) -> Json
     {
         const LightRecord& record = pack.lights()[i];
-        return {{"index", i},
-                {"name", pack.text(record.name)},
-                {"type", lightTypeName(record.type)},
-                {"intensity", record.intensity}};
+        Json json{{"index", i},
+                  {"name", pack.text(record.name)},
+                  {"type", lightTypeName(record.type)},
+                  {"intensity", record.intensity}};
+        if (record.flicker_rate > 0)
+            json["flicker"] = {{"rate", record.flicker_rate},
+                               {"amplitude", record.flicker_amplitude},
+                               {"seed", record.flicker_seed}};
+        return json;
     };
     const auto shadow_sphere = [&](uint32_t i) -> Json
     {
@@ -178,6 +183,7 @@ Json sceneJson(const PackView& pack, const PackSummary& summary)
         Json json{{"index", i},
                   {"name", pack.text(record.name)},
                   {"channels", record.channels.count},
+                  {"light_channels", record.light_channels.count},
                   {"seconds", record.duration},
                   {"error", record.error}};
         if (i < summary.meta.clips.size())

@@ -5,6 +5,7 @@
 #include "cook/tools/sha256.h"
 #include "formats/codecs/channel_keys.h"
 #include "formats/pack/image_uses.h"
+#include "formats/records/animation_paths.h"
 #include "formats/records/texel_format_name.h"
 #include "pipelines/command/inspect/inspect.h"
 
@@ -276,19 +277,27 @@ std::string keysHash(const PackView& pack, const AnimationChannelRecord& channel
     return contentHash(bytes);
 }
 
+/// Name a channel: "rotation of arm", "intensity of light torch".
+std::string channelName(const PackView& pack, const AnimationChannelRecord& channel)
+{
+    const AnimationPathInfo& path = kAnimationPaths[channel.path];
+    return path.of_light
+               ? fmt::format("{} of light {}", path.name, recordName(pack, pack.lights(), channel.target))
+               : fmt::format("{} of {}", path.name, recordName(pack, pack.nodes(), channel.target));
+}
+
 PackEntry makeAnimationEntry(const PackView& pack, const AnimationRecord& animation)
 {
-    static constexpr const char* kPaths[] = {"translation", "rotation", "scale", "weights"};
     PackEntry entry{"animation", std::string(pack.text(animation.name)), {}};
     addFieldProperties(entry.properties, pack, animation);
-    for (const AnimationChannelRecord& channel : recordsInRange(pack.channels(), animation.channels))
-    {
-        const std::string name =
-            fmt::format("{} of {}", kPaths[channel.path % 4], recordName(pack, pack.nodes(), channel.node));
-        entry.properties.push_back(
-            {name, fmt::format("{} keys, interpolation {}", channel.key_count, channel.interpolation)});
-        entry.properties.push_back({"keys of " + name, keysHash(pack, channel), true});
-    }
+    for (const Range channels : {animation.channels, animation.light_channels})
+        for (const AnimationChannelRecord& channel : recordsInRange(pack.channels(), channels))
+        {
+            const std::string name = channelName(pack, channel);
+            entry.properties.push_back(
+                {name, fmt::format("{} keys, interpolation {}", channel.key_count, channel.interpolation)});
+            entry.properties.push_back({"keys of " + name, keysHash(pack, channel), true});
+        }
     return entry;
 }
 

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/gltf/animations.h"
 
+#include "formats/records/animation_paths.h"
+#include "formats/scene/animation.h"
 #include "pipelines/import/part/limit_messages.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 
 namespace hearth::import
 {
@@ -80,6 +84,24 @@ bool normalizeRotations(std::vector<float>& values, size_t first, size_t step)
     return near;
 }
 
+/// Clamp the values of a light's property, at first, first + step, ..., as the reader of lights does. True if
+/// all were in range.
+bool clampLightValues(std::vector<float>& values, AnimationPath path, size_t first, size_t step)
+{
+    const bool is_cone = path == AnimationPath::light_inner_cone || path == AnimationPath::light_outer_cone;
+    const float min = path == AnimationPath::light_range ? kMinAnimatedRange : 0;
+    const float max = is_cone ? std::numbers::pi_v<float> / 2 : std::numeric_limits<float>::max();
+    const size_t components = kAnimationPaths[static_cast<size_t>(path)].components;
+    bool in_range = true;
+    for (size_t i = first; i + components <= values.size(); i += step)
+        for (float& value : std::span(values).subspan(i, components))
+        {
+            in_range = in_range && value >= min && value <= max;
+            value = std::clamp(value, min, max);
+        }
+    return in_range;
+}
+
 class AnimationWriter
 {
 public:
@@ -93,7 +115,9 @@ public:
 
 private:
     Status checkSamplers() const;
-    Status writeChannel(const GltfAnimationChannel& channel);
+    Status writeNodeChannel(const GltfAnimationChannel& channel);
+    Status writeLightChannel(const GltfAnimationChannel& channel);
+    Status writeChannel(const GltfAnimationChannel& channel, uint32_t target, size_t components);
     Status checkOutput(const GltfAnimationSampler& sampler, AnimationPath path) const;
     Result<CurveLocation> findOrWriteCurve(const GltfAnimationSampler& sampler, AnimationPath path,
                                            size_t components);
@@ -128,12 +152,13 @@ Status AnimationWriter::checkSamplers() const
 Status AnimationWriter::checkOutput(const GltfAnimationSampler& sampler, AnimationPath path) const
 {
     const GltfAccessor& output = accessors_.accessor(sampler.output);
-    const bool is_vector = path == AnimationPath::translation || path == AnimationPath::scale;
-    const ElementType type = is_vector                         ? ElementType::vec3
-                             : path == AnimationPath::rotation ? ElementType::vec4
-                                                               : ElementType::scalar;
+    const uint32_t components = kAnimationPaths[static_cast<size_t>(path)].components;
+    const ElementType type = components == 3   ? ElementType::vec3
+                             : components == 4 ? ElementType::vec4
+                                               : ElementType::scalar;
     const bool is_float = output.component == ComponentType::f32;
-    if (output.type == type && (is_float || (!is_vector && output.normalized)))
+    const bool is_length = path == AnimationPath::translation || path == AnimationPath::scale;
+    if (output.type == type && (is_float || (!is_length && output.normalized)))
         return success();
     return accessors_.error(sampler.output, Issue::gltf_value,
                             fmt::format("animated values of this path cannot be a {}", formatName(output)));
@@ -164,6 +189,9 @@ Result<Curve> AnimationWriter::readCurve(const GltfAnimationSampler& sampler, An
     if (path == AnimationPath::rotation &&
         !normalizeRotations(curve.values, per_key == 3 ? 4 : 0, 4 * per_key))
         tally_.repaired("animated rotations whose length is not 1 were scaled", where_);
+    if (kAnimationPaths[static_cast<size_t>(path)].of_light &&
+        !clampLightValues(curve.values, path, per_key == 3 ? components : 0, components * per_key))
+        tally_.repaired("animated values of lights outside their range were clamped", where_);
     return curve;
 }
 
@@ -190,24 +218,13 @@ Result<CurveLocation> AnimationWriter::findOrWriteCurve(const GltfAnimationSampl
     return location;
 }
 
-Status AnimationWriter::writeChannel(const GltfAnimationChannel& channel)
+Status AnimationWriter::writeChannel(const GltfAnimationChannel& channel, uint32_t target, size_t components)
 {
     const GltfAnimationSampler& sampler = animation_->samplers[channel.sampler];
-    const uint32_t mesh = model_.nodes[channel.node].mesh;
-    size_t components = channel.path == AnimationPath::rotation ? 4 : 3;
-    if (channel.path == AnimationPath::weights)
-        components = mesh == kInvalidIndex ? 0 : morphTargetCount(model_.meshes[mesh]);
-    if (components == 0)
-    {
-        tally_.dropped("animation of morph weights without morph targets is not kept", where_);
-        return success();
-    }
-    if (!model_.nodes[channel.node].has_trs && channel.path != AnimationPath::weights)
-        tally_.degraded("animation of a node that has a matrix", where_);
     HEARTH_ASSIGN_OR_RETURN(const CurveLocation curve, findOrWriteCurve(sampler, channel.path, components));
 
     AnimationChannelRecord record{};
-    record.node = channel.node;
+    record.target = target;
     record.path = static_cast<uint32_t>(channel.path);
     record.interpolation = static_cast<uint32_t>(sampler.interpolation);
     record.components = static_cast<uint32_t>(components);
@@ -217,7 +234,39 @@ Status AnimationWriter::writeChannel(const GltfAnimationChannel& channel)
     context_.part.channels.push_back(record);
     AnimationRecord& animation = context_.part.animations.back();
     animation.duration = std::max(animation.duration, curve.end_time);
-    ++animation.channels.count;
+    return success();
+}
+
+Status AnimationWriter::writeNodeChannel(const GltfAnimationChannel& channel)
+{
+    const uint32_t mesh = model_.nodes[channel.target].mesh;
+    size_t components = kAnimationPaths[static_cast<size_t>(channel.path)].components;
+    if (channel.path == AnimationPath::weights)
+        components = mesh == kInvalidIndex ? 0 : morphTargetCount(model_.meshes[mesh]);
+    if (components == 0)
+    {
+        tally_.dropped("animation of morph weights without morph targets is not kept", where_);
+        return success();
+    }
+    if (!model_.nodes[channel.target].has_trs && channel.path != AnimationPath::weights)
+        tally_.degraded("animation of a node that has a matrix", where_);
+    return writeChannel(channel, channel.target, components);
+}
+
+/// Write a channel for each light of the part that the document's light has become.
+Status AnimationWriter::writeLightChannel(const GltfAnimationChannel& channel)
+{
+    bool found = false;
+    for (uint32_t light = 0; light < context_.part.lights.size(); ++light)
+    {
+        if (model_.nodes[context_.part.lights[light].node].light != channel.target)
+            continue;
+        found = true;
+        HEARTH_TRY(
+            writeChannel(channel, light, kAnimationPaths[static_cast<size_t>(channel.path)].components));
+    }
+    if (!found)
+        tally_.dropped("animation of a light that no drawn node has is not kept", where_);
     return success();
 }
 
@@ -227,12 +276,23 @@ Status AnimationWriter::write(uint32_t index)
     where_ = fmt::format("/animations/{}", index);
     locations_.clear();
     HEARTH_TRY(checkSamplers());
+    const auto channelCount = [&] { return static_cast<uint32_t>(context_.part.channels.size()); };
+    const auto isOfLight = [](const GltfAnimationChannel& channel)
+    { return kAnimationPaths[static_cast<size_t>(channel.path)].of_light; };
     AnimationRecord record{};
     record.name = context_.part.intern(animation_->name);
-    record.channels.first = static_cast<uint32_t>(context_.part.channels.size());
+    const uint32_t first = channelCount();
     context_.part.animations.push_back(record);
     for (const GltfAnimationChannel& channel : animation_->channels)
-        HEARTH_TRY(writeChannel(channel));
+        if (!isOfLight(channel))
+            HEARTH_TRY(writeNodeChannel(channel));
+    const uint32_t first_of_lights = channelCount();
+    for (const GltfAnimationChannel& channel : animation_->channels)
+        if (isOfLight(channel))
+            HEARTH_TRY(writeLightChannel(channel));
+    AnimationRecord& written = context_.part.animations.back();
+    written.channels = {first, first_of_lights - first};
+    written.light_channels = {first_of_lights, channelCount() - first_of_lights};
     return success();
 }
 

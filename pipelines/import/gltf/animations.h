@@ -8,8 +8,9 @@
 namespace hearth::import
 {
 
-/// Write all animations to the part. Keys whose time does not increase are dropped and rotations are
-/// normalised, both with a warning. errors: gltf_value, gltf_data, input_too_large.
+/// Write all animations to the part, whose lights are complete. A light's channel becomes one for each node
+/// that has the light. Keys whose time does not increase are dropped, rotations are normalised, and values of
+/// lights are clamped to their range, all with a warning. errors: gltf_value, gltf_data, input_too_large.
 Status writeAnimations(const GltfModel& model, GltfAccessors& accessors, const GltfContext& context,
                        GltfTally& tally);
 

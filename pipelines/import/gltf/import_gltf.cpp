@@ -56,8 +56,8 @@ Status importGltf(const std::string& path, const FileBytes& file, const ImportOp
                             writeMeshes(model, uses, lods, meshes, inverse_binds, context));
     context.part.counts.vertices = sourceVertexCount(model);
     HEARTH_TRY(writeMaterials(model, buffers, context));
-    HEARTH_TRY(writeAnimations(model, accessors, context, tally));
     HEARTH_TRY(writeScene(model, uses, summaries, lods.hidden, accessors, context, tally));
+    HEARTH_TRY(writeAnimations(model, accessors, context, tally));
     HEARTH_TRY(writeExtras(document, container.json, model, uses, context));
     tally.report(part);
     if (part.counts.triangles == 0)

@@ -254,6 +254,9 @@ Status SceneWriter::writeLight(uint32_t node)
     record.range = light.range;
     record.inner_cone_rad = light.inner_cone_rad;
     record.outer_cone_rad = light.outer_cone_rad;
+    record.flicker_rate = light.flicker.rate;
+    record.flicker_amplitude = light.flicker.amplitude;
+    record.flicker_seed = light.flicker.seed;
     HEARTH_ASSIGN_OR_RETURN(record.world_from_light, narrow(world_from_node_[node], node));
     context_.part.lights.push_back(record);
     return success();

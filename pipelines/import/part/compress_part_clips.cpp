@@ -20,16 +20,6 @@ AnimationTables makeMotionTables(const PartBuilder& part)
             part.channels, part.keys,  part.morph_weights, part.key_bits};
 }
 
-/// Return the transform that instancing puts between a node and its instance, derived as in the runtime.
-Affine3d nodeFromObject(const InstanceRecord& instance, const Affine3d& world_from_node)
-{
-    const auto narrow = narrowed(world_from_node);
-    if (narrow && *narrow == instance.world_from_object)
-        return {};
-    const auto node_from_world = inverted(world_from_node);
-    return node_from_world ? *node_from_world * widened(instance.world_from_object) : Affine3d{};
-}
-
 /// Return the longest displacement of a vertex by morph targets, over all weights that clips give the node.
 double maxMorphDistance(const AnimationTables& tables, uint32_t node, const VertexBounds& vertices)
 {
@@ -62,7 +52,8 @@ std::vector<AttachedVertices> collectCarriedBoxes(const PartBuilder& part, const
         if (node.skin == kInvalidIndex || vertices.joint_boxes.empty())
         {
             if (!vertices.box[0].empty())
-                carried.push_back({instance.node, nodeFromObject(instance, world_from_node[instance.node]),
+                carried.push_back({instance.node,
+                                   nodeFromObject(world_from_node[instance.node], instance.world_from_object),
                                    expandBox(vertices.box, morph)});
             continue;
         }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <set>
 
 namespace hearth::import
 {
@@ -69,6 +70,7 @@ public:
             HEARTH_TRY(convertCamera(camera));
         for (LightRecord& light : part_.lights)
             HEARTH_TRY(convertLight(light));
+        HEARTH_TRY(convertLightRanges());
         for (ShadowSphereRecord& sphere : part_.shadow_spheres)
             HEARTH_TRY(convertSphere(sphere));
         return success();
@@ -154,6 +156,23 @@ private:
     {
         HEARTH_ASSIGN_OR_RETURN(light.world_from_light, convertTransform(light.world_from_light));
         return scaleLength(light.range);
+    }
+
+    /// Scale the animated ranges of lights. Channels may share their keys.
+    Status convertLightRanges()
+    {
+        std::set<uint32_t> converted;
+        for (const AnimationChannelRecord& channel : part_.channels)
+        {
+            if (channel.path != static_cast<uint32_t>(AnimationPath::light_range) ||
+                !converted.insert(channel.first_value).second)
+                continue;
+            const bool spline = channel.interpolation == static_cast<uint32_t>(Interpolation::cubic_spline);
+            for (float& length :
+                 std::span(part_.keys).subspan(channel.first_value, channel.key_count * (spline ? 3u : 1u)))
+                HEARTH_TRY(scaleLength(length));
+        }
+        return success();
     }
 
     Status convertSphere(ShadowSphereRecord& sphere)

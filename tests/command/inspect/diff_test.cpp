@@ -106,6 +106,9 @@ TEST_F(Diff, eachChangeIsToldUnderItsName)
         {{"changed material paint: base_color_texture.wrap_u"},
          [](PackModel& pack) { pack.materials[0].base_color_texture.wrap_u = 2; }},
         {{"changed light light: intensity"}, [](PackModel& pack) { pack.lights[0].intensity *= 2; }},
+        {{"changed light light: flicker_rate"}, [](PackModel& pack) { pack.lights[1].flicker_rate = 9; }},
+        {{"changed animation packed: keys of intensity of light light"},
+         [](PackModel& pack) { pack.keys[pack.channels[5].first_value] = 11; }},
         {{"changed camera camera: y_fov_rad"}, [](PackModel& pack) { pack.cameras[0].y_fov_rad *= 1.25F; }},
         {{"changed instance strip node: world_from_object"},
          [](PackModel& pack)

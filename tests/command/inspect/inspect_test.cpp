@@ -179,6 +179,10 @@ TEST_F(Inspect, countsTheScene)
     EXPECT_EQ(scene["images"][1]["format"], "rgba16-float");
     EXPECT_EQ(scene["skins"][0]["joints"], 2);
     EXPECT_EQ(scene["animations"][0]["channels"], 2);
+    EXPECT_EQ(scene["animations"][0]["light_channels"], 0);
+    EXPECT_EQ(scene["animations"][2]["light_channels"], 2);
+    EXPECT_EQ(scene["lights"][1]["flicker"], (Json{{"rate", 8.0}, {"amplitude", 0.25}, {"seed", 7}}));
+    EXPECT_FALSE(scene["lights"][0].contains("flicker"));
 }
 
 TEST_F(Inspect, listsExtras)

@@ -185,7 +185,7 @@ Character baked(const Character& character)
         {
             ScenePose pose = restPose(tables);
             sampleAnimation(tables, alone, double{result.keys[key]}, pose);
-            const NodePose& node = pose.nodes[channel.node];
+            const NodePose& node = pose.nodes[channel.target];
             const auto push = [&](double value) { result.keys.push_back(static_cast<float>(value)); };
             const Double3 vector =
                 channel.path == static_cast<uint32_t>(AnimationPath::scale) ? node.scale : node.translation;
@@ -402,7 +402,7 @@ TEST(CompressClips, channelsThatDoNothingGo)
     Character character = baked(randomCharacter(spec, 11));
     for (const AnimationChannelRecord& channel : character.channels)
     {
-        const NodeRecord& node = character.nodes[channel.node];
+        const NodeRecord& node = character.nodes[channel.target];
         const Float4 rotation = node.rotation;
         for (uint32_t key = 0; key < channel.key_count; ++key)
             for (uint32_t i = 0; i < channel.components; ++i)
@@ -416,6 +416,53 @@ TEST(CompressClips, channelsThatDoNothingGo)
         animation_compression::compressClips(character.tables(), carriedBy(character), kDefault);
     EXPECT_TRUE(compressed.tables.channels.empty());
     EXPECT_LE(compressed.statistics[0].proven_error, 1e-13);
+}
+
+TEST(CompressClips, channelsOfLightsStay)
+{
+    CharacterSpec spec;
+    spec.clips = 2;
+    Character character = baked(randomCharacter(spec, 13));
+    const std::vector<AnimationChannelRecord> of_nodes = character.channels;
+    character.channels.clear();
+    for (AnimationRecord& animation : character.animations)
+    {
+        const auto channels =
+            recordsInRange(std::span<const AnimationChannelRecord>(of_nodes), animation.channels);
+        animation.channels.first = static_cast<uint32_t>(character.channels.size());
+        character.channels.insert(character.channels.end(), channels.begin(), channels.end());
+        AnimationChannelRecord channel{};
+        channel.target = 1000; // lights are not in these tables
+        channel.path = static_cast<uint32_t>(AnimationPath::light_intensity);
+        channel.interpolation = static_cast<uint32_t>(Interpolation::cubic_spline);
+        channel.components = 1;
+        channel.key_count = 2;
+        channel.first_value = static_cast<uint32_t>(character.keys.size());
+        character.keys.insert(character.keys.end(), {0, 5, 1, -1, 6, 0});
+        animation.light_channels = {static_cast<uint32_t>(character.channels.size()), 2};
+        character.channels.insert(character.channels.end(), {channel, channel});
+    }
+    for (const StatedError& stated : {kDefault, StatedError{}})
+    {
+        const CompressedClips compressed =
+            animation_compression::compressClips(character.tables(), carriedBy(character), stated);
+        for (const AnimationRecord& animation : compressed.animations)
+        {
+            EXPECT_EQ(animation.light_channels.first, animation.channels.first + animation.channels.count);
+            ASSERT_EQ(animation.light_channels.count, 2u);
+            const AnimationChannelRecord& channel =
+                compressed.tables.channels[animation.light_channels.first + 1];
+            EXPECT_EQ(channel.target, 1000u);
+            const ChannelKeys keys(compressed.tables.keys, compressed.tables.key_bits, channel);
+            EXPECT_EQ(keys.value(0, 0, 1)[0], 5);
+            EXPECT_EQ(keys.outTangent(0, 0, 1)[0], 1);
+            EXPECT_EQ(keys.inTangent(1, 0, 1)[0], -1);
+            EXPECT_EQ(keys.value(1, 0, 1)[0], 6);
+            EXPECT_EQ(keys.time(1), character.keys[1]);
+        }
+        const auto& last = compressed.animations.back();
+        EXPECT_EQ(last.light_channels.first + 2, compressed.tables.channels.size());
+    }
 }
 
 TEST(CompressClips, isTheSameForAnyNumberOfThreads)

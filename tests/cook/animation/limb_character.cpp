@@ -49,7 +49,7 @@ void addClip(Character& character, uint32_t clip)
     for (uint32_t joint = 0; joint < kJoints; ++joint)
     {
         AnimationChannelRecord channel{};
-        channel.node = joint;
+        channel.target = joint;
         channel.path = static_cast<uint32_t>(AnimationPath::rotation);
         channel.interpolation = static_cast<uint32_t>(Interpolation::linear);
         channel.components = 4;

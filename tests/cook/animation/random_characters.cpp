@@ -136,7 +136,7 @@ private:
                                                    : Interpolation::linear;
         spline_ = kind == Interpolation::cubic_spline;
         AnimationChannelRecord channel{};
-        channel.node = node;
+        channel.target = node;
         channel.path = static_cast<uint32_t>(path);
         channel.interpolation = static_cast<uint32_t>(kind);
         channel.components = components;

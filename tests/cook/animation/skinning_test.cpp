@@ -237,7 +237,7 @@ TEST(DeformedBounds, jointsThatMoveTogetherGiveTightBoxes)
     {
         character.nodes[joint].parent = joint == 0 ? kInvalidIndex : joint - 1;
         AnimationChannelRecord channel{};
-        channel.node = joint;
+        channel.target = joint;
         channel.path = static_cast<uint32_t>(AnimationPath::rotation);
         channel.interpolation = static_cast<uint32_t>(Interpolation::linear);
         channel.components = 4;
@@ -251,7 +251,7 @@ TEST(DeformedBounds, jointsThatMoveTogetherGiveTightBoxes)
         character.keys.insert(character.keys.end(), {rest.x, rest.y + turn, rest.z, rest.w});
         character.channels.push_back(channel);
     }
-    character.animations.push_back({{}, {0, 8}, 1, 0});
+    character.animations.push_back({{}, {0, 8}, {8, 0}, 1, 0});
     for (AnimationChannelRecord& channel : character.channels)
     {
         // of length 1

@@ -195,7 +195,7 @@ Character bentTail()
     for (uint32_t i = 0; i < kJoints; ++i)
     {
         formats::AnimationChannelRecord channel{};
-        channel.node = i;
+        channel.target = i;
         channel.path = static_cast<uint32_t>(formats::AnimationPath::rotation);
         channel.interpolation = static_cast<uint32_t>(formats::Interpolation::linear);
         channel.components = 4;
@@ -203,7 +203,7 @@ Character bentTail()
         channel.first_value = 2;
         character.channels.push_back(channel);
     }
-    character.animations.push_back({{}, {0, kJoints}, 1, 0});
+    character.animations.push_back({{}, {0, kJoints}, {kJoints, 0}, 1, 0});
     skinning::DeformedCluster cluster;
     cluster.influences = kJoints;
     for (uint32_t v = 0; v < 24; ++v)

@@ -30,7 +30,7 @@ inline void addSlide(PackModel& model, const std::string& name, uint32_t node, f
     for (const float key : {0.0f, seconds, from.x, from.y, from.z, to.x, to.y, to.z})
         model.keys.push_back(key);
     formats::AnimationChannelRecord channel{};
-    channel.node = node;
+    channel.target = node;
     channel.path = static_cast<uint32_t>(formats::AnimationPath::translation);
     channel.interpolation = static_cast<uint32_t>(formats::Interpolation::linear);
     channel.components = 3;
@@ -40,7 +40,8 @@ inline void addSlide(PackModel& model, const std::string& name, uint32_t node, f
     const formats::StringRef text{static_cast<uint32_t>(model.strings.size()),
                                   static_cast<uint32_t>(name.size())};
     model.strings += name;
-    model.animations.push_back({text, {static_cast<uint32_t>(model.channels.size()), 1}, seconds, 0});
+    const auto index = static_cast<uint32_t>(model.channels.size());
+    model.animations.push_back({text, {index, 1}, {index + 1, 0}, seconds, 0});
     model.channels.push_back(channel);
 }
 

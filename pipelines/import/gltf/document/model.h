@@ -280,6 +280,14 @@ struct GltfCamera
     float z_far = 0;
 };
 
+/// Flicker from the extras of a light: formats/scene/light_flicker.h.
+struct GltfFlicker
+{
+    float rate = 0; ///< hertz; 0: none
+    float amplitude = 0;
+    uint32_t seed = 0;
+};
+
 struct GltfLight
 {
     std::string name;
@@ -289,6 +297,7 @@ struct GltfLight
     float range = 0;
     float inner_cone_rad = 0;
     float outer_cone_rad = 0;
+    GltfFlicker flicker;
 };
 
 struct GltfSkin
@@ -309,7 +318,7 @@ struct GltfAnimationSampler
 struct GltfAnimationChannel
 {
     uint32_t sampler = kInvalidIndex;
-    uint32_t node = kInvalidIndex;
+    uint32_t target = kInvalidIndex; ///< node, or light of the document
     formats::AnimationPath path = formats::AnimationPath::translation;
 };
 
@@ -317,7 +326,7 @@ struct GltfAnimation
 {
     std::string name;
     std::vector<GltfAnimationSampler> samplers;
-    std::vector<GltfAnimationChannel> channels; ///< only those that move a node
+    std::vector<GltfAnimationChannel> channels; ///< only those of nodes and punctual lights
 };
 
 struct GltfModel

@@ -140,6 +140,39 @@ void readShadowSphere(const GltfObject& object, GltfNode& node)
     node.shadow_sphere = std::move(sphere);
 }
 
+/// Read a light's flicker from its custom properties: {"flicker": {"rate": 8, "amplitude": 0.5, "seed": 1}}.
+void readFlicker(const GltfObject& object, GltfLight& light)
+{
+    const std::optional<Json> extras = object.json().find("extras");
+    const std::optional<Json> flicker = extras ? extras->find("flicker") : std::nullopt;
+    if (!flicker)
+        return;
+    constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
+    const auto number = [&](std::string_view name, double fallback)
+    {
+        const std::optional<Json> value = flicker->find(name);
+        return !value ? fallback : value->isNumber() ? value->number() : kMissing;
+    };
+    const double rate = number("rate", kMissing), amplitude = number("amplitude", kMissing);
+    const double seed = number("seed", 0);
+    const bool is_rate = rate >= double{kMinPositive} && rate <= double{kUnbounded};
+    const bool is_amplitude = amplitude >= 0 && amplitude <= 1;
+    const bool is_seed =
+        seed >= 0 && seed <= double{std::numeric_limits<uint32_t>::max()} && seed == std::floor(seed);
+    if (is_rate && is_amplitude && is_seed)
+        light.flicker = {static_cast<float>(rate), static_cast<float>(amplitude),
+                         static_cast<uint32_t>(seed)};
+    else
+        object.problems().fail(
+            Issue::gltf_extension_value, *flicker,
+            fmt::format("the flicker of light \"{}\" needs {}; write {{\"rate\": 8, \"amplitude\": 0.5, "
+                        "\"seed\": 1}}, or remove it",
+                        light.name,
+                        !is_rate        ? "a rate above 0 Hz"
+                        : !is_amplitude ? "an amplitude from 0 to 1"
+                                        : "an integer from 0 to 4294967295 as its seed"));
+}
+
 /// Warn of the coverages at which levels by MSFT_lod switch: Hearth chooses levels by their error.
 void reportScreenCoverages(const GltfObject& root, const std::vector<GltfObject>& objects)
 {
@@ -243,6 +276,7 @@ void readLights(const GltfObject& root, GltfModel& model)
                 light.inner_cone_rad = spot->factor("innerConeAngle", 0, 0, light.outer_cone_rad);
             }
         }
+        readFlicker(object, light);
         model.lights.push_back(std::move(light));
     }
 }
