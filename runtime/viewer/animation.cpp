@@ -118,10 +118,25 @@ Status FramePose::take(const pack::PosePlayer& player, const gpu::Scene& scene)
     return success();
 }
 
+Status FrameLights::add(const pack::LightPlayer& player, const gpu::Scene& scene)
+{
+    for (const pack::PlayedLight& played : is_first_ ? player.lights() : player.changed())
+    {
+        if (played.light >= scene.lights.size())
+            break;
+        HEARTH_ASSIGN_OR_RETURN(const gpu::LightChange change,
+                                gpu::changeLight(scene, played.light, played.record));
+        changes_.push_back(change);
+    }
+    is_first_ = false;
+    return success();
+}
+
 Result<Animation> Animation::create(const AnimationSettings& settings, const formats::PackView& pack)
 {
     Animation animation(pack);
     animation.weight_ = settings.weight;
+    animation.flicker_seconds_ = settings.seconds.value_or(0);
     animation.step_seconds_ = settings.step_seconds;
     HEARTH_ASSIGN_OR_RETURN(animation.clip_, findClip(settings, pack));
     if (settings.blended)
@@ -139,6 +154,7 @@ void Animation::goTo(size_t frame)
         player_.blend(after(*clip_, seconds), after(*blended_, seconds), weight_);
     else if (clip_)
         player_.play(after(*clip_, seconds));
+    lights_.update(player_, flicker_seconds_ + seconds);
 }
 
 Status Animation::update(const gpu::Scene& scene)

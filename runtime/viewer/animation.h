@@ -1,8 +1,10 @@
-// Clips chosen on the command line, played frame by frame.
+// Clips chosen on the command line, and the lights' flicker, played frame by frame.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
 #include "runtime/gpu/scene/instance_motion.h"
+#include "runtime/gpu/scene/light_change.h"
+#include "runtime/pack/light_player.h"
 #include "runtime/pack/pose_player.h"
 #include "runtime/viewer/command_line.h"
 
@@ -17,11 +19,11 @@ namespace hearth::viewer
 struct AnimationSettings
 {
     std::optional<std::string> clip{};    ///< name or index; none: the scene is at rest
-    std::optional<double> seconds{};      ///< of the clip; none: its start
+    std::optional<double> seconds{};      ///< of the clip and of flicker; none: their start
     std::optional<std::string> blended{}; ///< second clip
     double blended_seconds = 0;
     double weight = 0;       ///< of the second clip, 0 to 1
-    double step_seconds = 0; ///< step of both clips from frame to frame
+    double step_seconds = 0; ///< step of the clips and of flicker from frame to frame
 };
 
 /// Add the options --animation and --time; the settings outlive the command line.
@@ -50,17 +52,36 @@ private:
     std::vector<gpu::InstancePose> poses_;
 };
 
-/// Plays the clips of the settings, for one pack, which outlives it.
+/// Changes that the lights of one scene need to show those of a player, until a frame takes them.
+class FrameLights
+{
+public:
+    /// Add the changes of the player's last update; at first all its lights, since the scene has those of the
+    /// pack. Lights that the scene does not draw are left out. errors: same as gpu::changeLight.
+    Status add(const pack::LightPlayer& player, const gpu::Scene& scene);
+
+    std::span<const gpu::LightChange> changes() const { return changes_; }
+
+    /// Forget the changes, which a recorded frame has.
+    void clear() { changes_.clear(); }
+
+private:
+    bool is_first_ = true;
+    std::vector<gpu::LightChange> changes_;
+};
+
+/// Plays the clips of the settings and flicker, for one pack, which outlives it.
 class Animation
 {
 public:
     /// errors: usage if the pack has no such clip.
     static Result<Animation> create(const AnimationSettings& settings, const formats::PackView& pack);
 
-    /// Go to the pose of a frame, counted from 0.
+    /// Go to the pose and the lights of a frame, counted from 0.
     void goTo(size_t frame);
 
     const pack::PosePlayer& player() const { return player_; }
+    const pack::LightPlayer& lights() const { return lights_; }
 
     /// Compute the moves and poses of the scene's next frame. Valid until the next call of goTo or update.
     /// errors: same as gpu::moveInstance.
@@ -69,13 +90,15 @@ public:
     std::span<const gpu::InstancePose> poses() const { return pose_.poses(); }
 
 private:
-    explicit Animation(const formats::PackView& pack) : player_(pack) {}
+    explicit Animation(const formats::PackView& pack) : player_(pack), lights_(pack) {}
 
     std::optional<pack::ClipTime> clip_;
     std::optional<pack::ClipTime> blended_;
     double weight_ = 0;
+    double flicker_seconds_ = 0;
     double step_seconds_ = 0;
     pack::PosePlayer player_;
+    pack::LightPlayer lights_;
     FramePose pose_;
 };
 

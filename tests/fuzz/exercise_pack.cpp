@@ -3,7 +3,9 @@
 
 #include "formats/codecs/channel_keys.h"
 #include "formats/gpu_shared/brick_march.h"
+#include "formats/records/animation_paths.h"
 #include "runtime/pack/cut.h"
+#include "runtime/pack/light_player.h"
 #include "runtime/pack/pack.h"
 #include "runtime/pack/page_graph.h"
 
@@ -107,12 +109,35 @@ void useScene(const PackView& view)
     {
         const size_t values =
             size_t{channel.key_count} * channel.components * (channel.interpolation == 2 ? 3 : 1);
+        HEARTH_ASSERT(channel.target <
+                      (kAnimationPaths[channel.path].of_light ? view.lights().size() : view.nodes().size()));
         const ChannelKeys keys(view.keys(), view.keyBits(), channel);
         use(std::bit_cast<uint32_t>(keys.time(channel.key_count - 1)));
         if (isPacked(channel))
             use(std::bit_cast<uint64_t>(keys.value(channel.key_count - 1, 0, channel.components)[0]));
         else
             use(std::bit_cast<uint32_t>(view.keys()[channel.first_value + values - 1]));
+    }
+}
+
+/// Play the lights of every clip; they stay as the format allows.
+void useLights(const PackView& view)
+{
+    pack::PosePlayer poses(view);
+    pack::LightPlayer player(view);
+    for (uint32_t clip = 0; clip < view.animations().size(); ++clip)
+    {
+        const double seconds = double{view.animations()[clip].duration} * 0.4;
+        poses.blend({0, seconds}, {clip, seconds}, 0.5);
+        player.update(poses, seconds);
+        for (const pack::PlayedLight& played : player.lights())
+        {
+            const LightRecord& light = played.record;
+            for (const float value :
+                 {light.color.x, light.color.y, light.color.z, light.intensity, light.range})
+                HEARTH_ASSERT(value >= 0 && value <= std::numeric_limits<float>::max());
+            HEARTH_ASSERT(light.inner_cone_rad >= 0 && light.inner_cone_rad <= light.outer_cone_rad);
+        }
     }
 }
 
@@ -165,6 +190,7 @@ Status exercisePack(std::span<const std::byte> bytes)
         useCuts(pack.view(), mesh);
     useCoarsest(pack.view());
     useScene(pack.view());
+    useLights(pack.view());
     for (uint32_t image = 0; image < pack->images().size(); ++image)
         reads.push_back(useImage(pack.view(), image));
     for (const MaterialRecord& material : pack->materials())

@@ -161,6 +161,25 @@ TEST(Playback, isAsLongInManyStepsAsInOne)
     EXPECT_NEAR(often.clip()->seconds, 1.5, 1e-9);
 }
 
+TEST(Playback, theTimeOfFlickerGoesOnWithoutClipsAndWhereTheyLoop)
+{
+    Playback playback({2}, std::nullopt, 1.5);
+    PlaybackSettings settings{.playing = false};
+    playback.advance(settings, 10);
+    EXPECT_EQ(playback.flickerSeconds(), 1.5) << "paused";
+    settings.playing = true;
+    playback.advance(settings, 1);
+    EXPECT_EQ(playback.flickerSeconds(), 2.5);
+    settings.clip = 0;
+    settings.speed = 0.5f;
+    playback.advance(settings, 10);
+    EXPECT_EQ(playback.clip()->seconds, 1);
+    EXPECT_EQ(playback.flickerSeconds(), 7.5);
+    settings.go_to = 0.25;
+    playback.advance(settings, 1);
+    EXPECT_EQ(playback.flickerSeconds(), 0.75) << "the time of the clip, and on from there";
+}
+
 TEST(Playback, posesThePlayer)
 {
     TestScene test;

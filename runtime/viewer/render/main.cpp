@@ -156,6 +156,7 @@ public:
         HEARTH_TRY(goTo(number));
         frame.moves = moves_;
         frame.poses = poses_;
+        frame.lights = lights_.changes();
         beginFrame();
         if (options_.pyramid == PyramidStart::none)
             targets_.setPyramidView({});
@@ -168,6 +169,7 @@ public:
                 renderer_.record(commands, scene_, targets_, frame);
                 return success();
             }));
+        lights_.clear();
         HEARTH_ASSIGN_OR_RETURN(std::vector<double> stamps,
                                 host_.readTimestamps(timestamps_, gpu::kTimestampCount));
         times_.push_back(std::move(stamps));
@@ -257,11 +259,12 @@ public:
     }
 
 private:
-    /// Go to the moves and poses of that image of the clip or the stage.
+    /// Go to the moves, poses and lights of that image of the clip or the stage.
     Status goTo(size_t number)
     {
         animation_.goTo(number);
         HEARTH_TRY(animation_.update(scene_));
+        HEARTH_TRY(lights_.add(animation_.lights(), scene_));
         moves_.assign(animation_.moves().begin(), animation_.moves().end());
         poses_ = animation_.poses();
         if (stage_ == nullptr)
@@ -364,6 +367,7 @@ private:
     FrameSettings settings_;
     std::vector<gpu::InstanceMove> moves_;       ///< of the next frame
     std::span<const gpu::InstancePose> poses_{}; ///< of the next frame
+    FrameLights lights_;                         ///< changes since the last frame
     std::vector<std::vector<double>> times_;
     std::vector<FrameCounts> frames_; ///< frames that were written
     std::vector<StreamCounts> streaming_;

@@ -120,10 +120,13 @@ std::string renderHelp()
            "IMAGE-VIEW-0000.png;\n"
            "                          not overdraw\n"
            "      --animation CLIP    in the pose of a clip, by its name or number\n"
-           "      --time SECONDS      of the clip, default 0; beyond its keys it rests\n"
+           "      --time SECONDS      of the clip and of flickering lights, default 0; beyond its keys a "
+           "clip "
+           "rests\n"
            "      --blend CLIP,SECONDS,WEIGHT\n"
            "                          a second clip, and how much of it, 0 to 1\n"
-           "      --time-step SECONDS by which both go on from frame to frame of --camera-path or --frames\n"
+           "      --time-step SECONDS by which all times go on from frame to frame of --camera-path or "
+           "--frames\n"
            "      --samples N         of each pixel: 1, 4 (the default), 16 or 64: smoother leaves and "
            "wires\n"
            "      --stats FILE        counts and times of the passes as JSON\n"
@@ -186,8 +189,8 @@ Result<RenderOptions> parseRenderOptions(std::span<const char* const> arguments)
     HEARTH_TRY(checkDrawOptions(options));
     if (options.output.empty() && options.passes == PassesFormat::none)
         return usageError("no output is named (-o IMAGE.png)");
-    if (!options.animation.clip && (options.animation.blended || options.animation.step_seconds != 0))
-        return usageError("--blend and --time-step need --animation");
+    if (!options.animation.clip && options.animation.blended)
+        return usageError("--blend needs --animation");
     if (!options.camera_path.empty() && options.frames != 1)
         return usageError("--frames and --camera-path exclude each other");
     if (!options.views.empty() && options.frames != 1)

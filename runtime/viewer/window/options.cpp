@@ -11,7 +11,9 @@ std::string viewHelp()
                        "\n") +
            drawHelp() +
            "      --animation CLIP    play a clip, by its name or number\n"
-           "      --time SECONDS      pause at this time of it; beyond its keys it holds the last\n"
+           "      --time SECONDS      pause at this time of it, and of flickering lights; beyond its keys it "
+           "holds\n"
+           "                          the last\n"
            "      --frames N          end after N frames\n"
            "      --screenshot FILE   at the end of --frames: the image without the panel, PNG; with "
            "--budget "

@@ -22,8 +22,8 @@ double withinClip(double seconds, double duration, bool loop)
 
 } // namespace
 
-Playback::Playback(std::vector<double> durations, std::optional<pack::ClipTime> start)
-    : durations_(std::move(durations)), clip_(start)
+Playback::Playback(std::vector<double> durations, std::optional<pack::ClipTime> start, double seconds)
+    : durations_(std::move(durations)), clip_(start), flicker_seconds_(seconds)
 {
 }
 
@@ -33,10 +33,11 @@ void Playback::advance(PlaybackSettings& settings, double seconds)
     if (!same)
         choose(settings);
     if (clip_ && settings.go_to)
-        clip_->seconds = *settings.go_to;
+        clip_->seconds = flicker_seconds_ = *settings.go_to;
     settings.go_to.reset();
     if (!settings.playing)
         return;
+    flicker_seconds_ += seconds * static_cast<double>(settings.speed);
     pass(settings, seconds, clip_);
     pass(settings, seconds, faded_clip_);
     if (!faded_clip_)

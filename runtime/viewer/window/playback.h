@@ -1,4 +1,4 @@
-// Clip playback in a window: one clip at a time, with a crossfade to a newly chosen clip.
+// Playback in a window: one clip at a time, with a crossfade to a newly chosen clip, and the time of flicker.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -16,9 +16,9 @@ struct PlaybackSettings
     std::optional<uint32_t> clip{}; ///< animation of the pack; none: the scene is at rest
     bool playing = true;            ///< false: paused
     bool loop = true;               ///< false: stops at the end
-    float speed = 1;                ///< seconds of the clip per second; below 0 it runs backwards
+    float speed = 1;                ///< seconds of clip and flicker per second; below 0 they run backwards
     float fade_seconds = 0.25f;     ///< duration of the crossfade to the next clip
-    std::optional<double> go_to{};  ///< seconds of the clip; applied once
+    std::optional<double> go_to{};  ///< seconds of clip and flicker; applied once
 };
 
 class Playback
@@ -26,7 +26,9 @@ class Playback
 public:
     /// durations  of the animations of the pack, seconds
     /// start      initial clip, at any time
-    explicit Playback(std::vector<double> durations, std::optional<pack::ClipTime> start = std::nullopt);
+    /// seconds    initial time of flicker
+    explicit Playback(std::vector<double> durations, std::optional<pack::ClipTime> start = std::nullopt,
+                      double seconds = 0);
 
     /// Advance by a time step. A new clip begins at its start, or at its end if the speed is negative. It
     /// fades in unless it is paused or nothing was played before. Time continues from its present value: a
@@ -38,6 +40,8 @@ public:
     std::optional<pack::ClipTime> fadedClip() const { return faded_clip_; }
     double weight() const { return faded_clip_ ? weight_ : 1; } ///< of clip(), 0 to 1
     double duration(uint32_t clip) const { return durations_[clip]; }
+    /// Return the time of flicker, which goes on where a clip loops, stops or gives way to another.
+    double flickerSeconds() const { return flicker_seconds_; }
 
     /// Apply the current pose.
     void pose(pack::PosePlayer& player) const;
@@ -50,6 +54,7 @@ private:
     std::optional<pack::ClipTime> clip_;
     std::optional<pack::ClipTime> faded_clip_;
     double weight_ = 0;
+    double flicker_seconds_ = 0;
 };
 
 /// Return the durations of all animations, as the constructor takes them.

@@ -98,6 +98,7 @@ Viewer::Viewer(const ViewOptions& options, const formats::PackView& pack, Playba
       clips_(clipNames(pack)),
       playback_(std::move(playback)),
       player_(pack),
+      light_player_(pack),
       cameras_(listCameras(pack, player, start,
                            static_cast<float>(options.width) / static_cast<float>(options.height))),
       assets_(makeAssetViews(pack, player,
@@ -111,7 +112,7 @@ Result<std::unique_ptr<Viewer>> Viewer::create(const ViewOptions& options, const
 {
     HEARTH_TRY(checkPack(options, pack));
     HEARTH_ASSIGN_OR_RETURN(const std::optional<pack::ClipTime> clip, findClip(options.animation, pack));
-    Playback playback(clipDurations(pack), clip);
+    Playback playback(clipDurations(pack), clip, options.animation.seconds.value_or(0));
     pack::PosePlayer player(pack);
     playback.pose(player);
     HEARTH_ASSIGN_OR_RETURN(const shared::Camera start, chooseCamera(options, pack, player));
@@ -245,6 +246,7 @@ Status Viewer::applySettings()
     }
     HEARTH_TRY(frames_->waitForAll());
     scene_ = std::move(scene).value();
+    lights_ = FrameLights();
     if (assets_.stage)
         assets_.stage->reset();
     return success();
@@ -262,13 +264,16 @@ void Viewer::lookAtAsset()
     camera_ = FlyCamera(camera, speed);
 }
 
-/// Compute the moves and poses of the next frame, for the clip and the shown asset.
+/// Compute the moves, poses and lights of the next frame, for the clip and the shown asset.
 Status Viewer::poseScene()
 {
     playback_.pose(player_);
     HEARTH_TRY(pose_.take(player_, scene_->scene()));
     moves_.assign(pose_.moves().begin(), pose_.moves().end());
     poses_ = pose_.poses();
+    light_player_.update(player_, playback_.flickerSeconds());
+    lights_.clear();
+    HEARTH_TRY(lights_.add(light_player_, scene_->scene()));
     if (!assets_.stage)
         return success();
     const size_t part = AssetViews::partIndex(asset_);
@@ -342,6 +347,7 @@ void Viewer::recordFrame(VkCommandBuffer commands, uint32_t image, bool panel, c
     frame.shadow_spheres = shadow_spheres_;
     frame.moves = moves_;
     frame.poses = poses_;
+    frame.lights = lights_.changes();
     frame.timestamps = meter_->timestamps(frames_->slot());
     renderer_->record(commands, scene, *targets_, frame);
     meter_->record(commands, *scene_, frames_->slot(), settings_.count_culling);

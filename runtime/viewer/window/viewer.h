@@ -66,7 +66,9 @@ private:
     std::vector<std::string> clips_;
     Playback playback_;
     pack::PosePlayer player_;
+    pack::LightPlayer light_player_;
     FramePose pose_;
+    FrameLights lights_; ///< changes of the next frame
     /// Cameras to go to; the first is the start camera, the second shows the whole scene.
     std::vector<NamedCamera> cameras_;
     AssetViews assets_;

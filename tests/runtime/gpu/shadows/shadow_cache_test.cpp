@@ -6,6 +6,7 @@
 #include "tests/support/shapes.h"
 
 #include "runtime/gpu/scene/scene_shadows.h"
+#include "runtime/pack/light_player.h"
 
 namespace hearth::test
 {
@@ -271,6 +272,38 @@ TEST_F(ShadowCacheTest, mapsAreDrawnWhereSomethingChanges)
         finer.error_pixels = 0.5f;
         EXPECT_EQ(drawnBy(finer).drawn_maps, 4u);
     }
+}
+
+/// Flicker changes no projection.
+TEST_F(ShadowCacheTest, flickeringLightsKeepTheirMaps)
+{
+    TestScene test;
+    (void)buildScene(test, 8);
+    for (LightRecord& record : test.model().lights)
+        record.flicker_rate = 5, record.flicker_amplitude = 0.9f;
+    const PackView pack = test.build();
+    const auto scene = upload(pack, {.shadows = smallMaps(false)});
+    const pack::PosePlayer poses(pack);
+    pack::LightPlayer player(pack);
+    const shared::Camera camera{
+        .position = {0.1f, 2.1f, 6.1f}, .target = {0.1f, 0.1f, 0.1f}, .z_near = 0.05f};
+    std::vector<Image> images;
+    for (const double seconds : {0.31, 0.47, 9.6, 0.31})
+    {
+        player.update(poses, seconds);
+        EXPECT_EQ(player.changed().size(), 3u);
+        std::vector<gpu::LightChange> changes;
+        for (const pack::PlayedLight& played : player.changed())
+            changes.push_back(*gpu::changeLight(*scene, played.light, played.record));
+        DrawOptions options = kDrawn;
+        options.lights = changes;
+        images.push_back(draw(*scene, camera, options));
+        EXPECT_EQ(getStatistics(*scene).drawn_maps, images.size() == 1 ? 4u : 0u) << seconds;
+        EXPECT_EQ(getStatistics(*scene).moved_maps, 0u);
+    }
+    EXPECT_NE(images[0].color, images[1].color);
+    EXPECT_NE(images[1].color, images[2].color);
+    EXPECT_EQ(images[0].color, images[3].color) << "the same time";
 }
 
 } // namespace hearth::test
