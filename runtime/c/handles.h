@@ -4,6 +4,7 @@
 
 #include "runtime/c/call.h"
 #include "runtime/gpu/renderer.h"
+#include "runtime/pack/light_player.h"
 #include "runtime/pack/pack.h"
 #include "runtime/pack/pose_player.h"
 
@@ -24,12 +25,18 @@ struct hearth_pack
 
 struct hearth_player
 {
-    explicit hearth_player(hearth_pack& opened) : pack(opened), player(opened.pack.view()) {}
+    explicit hearth_player(hearth_pack& opened)
+        : pack(opened), player(opened.pack.view()), light_player(opened.pack.view())
+    {
+    }
 
     hearth_pack& pack;
     hearth::pack::PosePlayer player;
+    hearth::pack::LightPlayer light_player;
     std::vector<hearth_move> moves; ///< same moves as the player's, converted
     std::vector<hearth_pose> poses;
+    std::vector<hearth_light_change> changed_lights; ///< same as the light player's, converted
+    std::vector<hearth_light_change> lights;
 };
 
 struct hearth_renderer

@@ -611,7 +611,8 @@ typedef struct hearth_shadow_sphere
     uint32_t texels;
 } hearth_shadow_sphere;
 
-/* New state of a light of the pack, from this frame on (1.4); its type stays. All finite. */
+/* New state of a light of the pack, from this frame on (1.4); its type stays. All finite. Changes of lights
+ * that the scene left out (dropped_lights) have no effect. */
 typedef struct hearth_light_change
 {
     uint32_t light;
@@ -793,7 +794,7 @@ HEARTH_API hearth_result hearth_pack_get_camera(const hearth_pack* pack, uint32_
                                                 hearth_pack_camera* camera, char* message,
                                                 size_t message_size);
 
-/* ---- Animation clips (1.2): played on the CPU, for a frame's moves and poses. ---- */
+/* ---- Animation clips (1.2): played on the CPU, for a frame's moves, poses and lights (1.8). ---- */
 
 /* Time in a clip, which holds its first key before it and its last key after it. */
 typedef struct hearth_clip
@@ -837,6 +838,32 @@ typedef struct hearth_player_info
 
 /* errors: USAGE. */
 HEARTH_API hearth_result hearth_player_get_info(const hearth_player* player, hearth_player_info* info);
+
+/* Lights that clips, moving nodes and flicker change (1.8); valid until the next hearth_player_get_lights.
+ * Pass either list as hearth_frame.lights. */
+typedef struct hearth_player_lights
+{
+    uint32_t struct_size;
+    uint32_t changed_count;
+    /* lights that differ from the last call, or in the first call from the pack: for a scene that has had
+     * all changes before */
+    const hearth_light_change* changed;
+    const hearth_light_change* lights; /* all that may change: for a new scene */
+    uint32_t light_count;
+    uint32_t reserved; /* 0 */
+} hearth_player_lights;
+
+#define HEARTH_PLAYER_LIGHTS_INIT                                                                            \
+    {                                                                                                        \
+        sizeof(hearth_player_lights), 0, NULL, NULL, 0, 0                                                    \
+    }
+
+/* Compute the lights of the pose that the last hearth_player_go_to went to (1.8). Allocates nothing.
+ * flicker_seconds  time of flicker, finite; may run on where a clip loops. Equal times give equal lights.
+ * errors: USAGE. */
+HEARTH_API hearth_result hearth_player_get_lights(hearth_player* player, double flicker_seconds,
+                                                  hearth_player_lights* lights, char* message,
+                                                  size_t message_size);
 
 /* Record culling and drawing, outside a render pass. Clobbers compute and graphics state. Submit the frames
  * of a scene, and the frames with the same targets, to one queue for graphics and compute, in recording

@@ -183,6 +183,15 @@ public:
     {
         return hearth_player_get_info(get(), &info);
     }
+
+    /// Compute the lights of the pose, with their flicker at a time.
+    [[nodiscard]] hearth_result getLights(double flicker_seconds, hearth_player_lights& lights,
+                                          std::string* message = nullptr)
+    {
+        return callWithMessage(
+            message, [&](char* text, size_t size)
+            { return hearth_player_get_lights(get(), flicker_seconds, &lights, text, size); });
+    }
 };
 
 class Renderer : public Handle<hearth_renderer, hearth_renderer_destroy>

@@ -15,8 +15,11 @@ Status makeLights(hearth_scene& scene, const hearth_frame& frame)
     for (uint32_t i = 0; i < frame.light_count; ++i)
     {
         const hearth_light_change& change = frame.lights[i];
-        formats::LightRecord record{};
         const std::span<const shared::Light> lights = scene.scene->lights->lights();
+        const uint32_t capacity = scene.scene->lights->layout().capacity;
+        if (change.light >= capacity && change.light - capacity < scene.scene->dropped_lights)
+            continue;
+        formats::LightRecord record{};
         if (change.light < lights.size())
             record.type = lights[change.light].type;
         static_assert(sizeof(record.world_from_light.m) == sizeof(change.world_from_light));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 using namespace hearth;
 using namespace hearth::c;
@@ -56,6 +57,34 @@ void refresh(hearth_player& player)
     }
 }
 
+hearth_light_change toChange(const pack::PlayedLight& played)
+{
+    const formats::LightRecord& record = played.record;
+    hearth_light_change change{};
+    change.light = played.light;
+    std::copy_n(&record.world_from_light.m[0][0], 12, &change.world_from_light[0][0]);
+    const float color[] = {record.color.x, record.color.y, record.color.z};
+    std::copy_n(color, 3, change.color);
+    change.intensity = record.intensity;
+    change.range = record.range;
+    change.inner_cone_rad = record.inner_cone_rad;
+    change.outer_cone_rad = record.outer_cone_rad;
+    return change;
+}
+
+/// Convert the light player's lights to the types of hearth.h. Allocates nothing: there is room for all.
+void refreshLights(hearth_player& player)
+{
+    const auto convert =
+        [](std::span<const pack::PlayedLight> lights, std::vector<hearth_light_change>& changes)
+    {
+        changes.clear();
+        std::transform(lights.begin(), lights.end(), std::back_inserter(changes), toChange);
+    };
+    convert(player.light_player.changed(), player.changed_lights);
+    convert(player.light_player.lights(), player.lights);
+}
+
 } // namespace
 
 hearth_result hearth_pack_find_animation(const hearth_pack* pack, const char* name, uint32_t* animation,
@@ -93,6 +122,8 @@ hearth_result hearth_player_create(hearth_pack* pack, hearth_player** player, ch
                              posed.morph_weights.data(), static_cast<uint32_t>(posed.morph_weights.size()),
                              0});
                     refresh(*made);
+                    made->changed_lights.reserve(made->light_player.lights().size());
+                    made->lights.reserve(made->light_player.lights().size());
                     ++pack->player_count;
                     *player = made.release();
                     return success();
@@ -136,6 +167,29 @@ hearth_result hearth_player_get_info(const hearth_player* player, hearth_player_
                              .poses = player->poses.data(),
                              .pose_count = static_cast<uint32_t>(player->poses.size()),
                              .reserved = 0};
+                    return success();
+                });
+}
+
+hearth_result hearth_player_get_lights(hearth_player* player, double flicker_seconds,
+                                       hearth_player_lights* lights, char* message, size_t message_size)
+{
+    return call({message, message_size}, __func__,
+                [&]() -> Status
+                {
+                    if (player == nullptr)
+                        return usage("player is NULL");
+                    HEARTH_TRY(checkStruct("lights", lights));
+                    if (!std::isfinite(flicker_seconds))
+                        return usage("flicker_seconds is not finite");
+                    player->light_player.update(player->player, flicker_seconds);
+                    refreshLights(*player);
+                    *lights = {.struct_size = sizeof(*lights),
+                               .changed_count = static_cast<uint32_t>(player->changed_lights.size()),
+                               .changed = player->changed_lights.data(),
+                               .lights = player->lights.data(),
+                               .light_count = static_cast<uint32_t>(player->lights.size()),
+                               .reserved = 0};
                     return success();
                 });
 }

@@ -4,7 +4,10 @@
 #include "tests/runtime/c/c_fixture.h"
 #include "tests/runtime/gpu/animated_rocks.h"
 #include "tests/runtime/gpu/deformed_scene.h"
+#include "tests/support/lit_scene.h"
 #include "tests/support/shapes.h"
+
+#include "runtime/pack/light_player.h"
 
 namespace hearth::test
 {
@@ -136,6 +139,79 @@ TEST_F(CPoseTest, aPlayerMovesWhatItsClipsMove)
     EXPECT_EQ(pose.moves[0].world_from_object[0][3], 3.5f);
     EXPECT_EQ(pose.moves[0].world_from_object[1][3], 1.0f);
     (void)pack.release();
+}
+
+TEST_F(CPoseTest, aPlayerLightsWhatFlickersAndMoves)
+{
+    TestScene test;
+    fillAnimatedRocks(test, test.addMesh(withMaterial(shapes::rock(20, 0.3f), kInvalidIndex)));
+    test.addLight(light(formats::LightType::point, {0, 1, 2}, {0, -1, 0}, 10));
+    test.addLight(light(formats::LightType::spot, {2, 3, 1}, {0, -1, -0.5f}, 40));
+    formats::LightRecord& lamp = test.model().lights[0];
+    lamp.flicker_rate = 4, lamp.flicker_amplitude = 0.5f, lamp.flicker_seed = 3;
+    test.model().lights[1].node = test.model().instances[1].node;
+    const formats::PackView view = test.build();
+    const AlignedBytes bytes = test.model().bytes();
+    open(view, bytes);
+    pack::PosePlayer poses(view);
+    pack::LightPlayer expected(view);
+    poses.play({0, 3});
+    expected.update(poses, 1.7);
+
+    Pack pack(pack_);
+    Player player;
+    std::string message;
+    ASSERT_EQ(Player::create(pack, player, &message), HEARTH_OK) << message;
+    hearth_player_lights lights = HEARTH_PLAYER_LIGHTS_INIT;
+    EXPECT_EQ(player.getLights(std::numeric_limits<double>::infinity(), lights, &message),
+              HEARTH_ERROR_USAGE);
+    EXPECT_THAT(message, testing::HasSubstr("flicker_seconds is not finite"));
+    const hearth_clip slide{0, 0, 3};
+    ASSERT_EQ(player.goTo(&slide), HEARTH_OK);
+    ASSERT_EQ(player.getLights(1.7, lights, &message), HEARTH_OK) << message;
+    ASSERT_EQ(lights.changed_count, 2u);
+    ASSERT_EQ(lights.light_count, 2u);
+    EXPECT_EQ(lights.changed[0].intensity, expected.lights()[0].record.intensity);
+    EXPECT_LT(lights.changed[0].intensity, 10);
+    EXPECT_EQ(lights.lights[1].world_from_light[0][3], 5);
+
+    hearth_player_info pose = HEARTH_PLAYER_INFO_INIT;
+    ASSERT_EQ(player.getInfo(pose), HEARTH_OK);
+    hearth_frame frame = makeFrame();
+    frame.moves = pose.moves, frame.move_count = pose.move_count;
+    frame.lights = lights.changed, frame.light_count = lights.changed_count;
+    (void)drawInC(frame);
+    const std::vector<uint32_t> lit = color_;
+    frame.light_count = 0;
+    (void)drawInC(frame);
+    EXPECT_NE(color_, lit);
+
+    ASSERT_EQ(player.getLights(1.7, lights), HEARTH_OK);
+    EXPECT_EQ(lights.changed_count, 0u) << "the same time";
+    EXPECT_EQ(lights.light_count, 2u);
+    lights.struct_size = 4;
+    EXPECT_EQ(player.getLights(1.7, lights, &message), HEARTH_ERROR_USAGE);
+    (void)pack.release();
+}
+
+TEST_F(CPoseTest, changesOfLightsThatAreNotDrawnHaveNoEffect)
+{
+    TestScene test;
+    test.addInstance(test.addMesh(withMaterial(shapes::rock(8, 0.3f), kInvalidIndex)), Affine3{});
+    for (uint32_t i = 0; i < shared::kMaxLights + 2; ++i)
+        test.addLight(light(formats::LightType::point, {0, 2, 0}, {0, -1, 0}, 1));
+    const formats::PackView view = test.build();
+    const AlignedBytes bytes = test.model().bytes();
+    open(view, bytes);
+    hearth_light_change change{};
+    change.light = shared::kMaxLights + 1;
+    std::copy_n(&view.lights()[0].world_from_light.m[0][0], 12, &change.world_from_light[0][0]);
+    hearth_frame frame = makeFrame();
+    (void)drawInC(frame);
+    const std::vector<uint32_t> before = color_;
+    frame.lights = &change, frame.light_count = 1;
+    (void)drawInC(frame);
+    EXPECT_EQ(color_, before);
 }
 
 } // namespace hearth::test
