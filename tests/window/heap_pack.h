@@ -14,6 +14,9 @@ inline PackModel heapModel()
     PackModel model = smallPack();
     model.materials[0].alpha_mode = static_cast<uint32_t>(formats::AlphaMode::opaque);
     model.lights.clear();
+    formats::AnimationRecord& animation = model.animations.back(); // the only one with channels of lights
+    model.channels.resize(animation.light_channels.first);
+    animation.light_channels.count = 0;
     model.shadow_spheres.clear();
     model.brick_grids.clear();
     model.bricks = {};
