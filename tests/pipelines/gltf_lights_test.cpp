@@ -1,10 +1,14 @@
 // Tests the import of lights that change: channels of KHR_animation_pointer, and flicker from extras.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/records/animation_paths.h"
+#include "pipelines/import/gltf/import_gltf.h"
+#include "pipelines/import/source/file_bytes.h"
 #include "tests/pipelines/gltf_fixture.h"
 
+#include <cstdlib>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <map>
 #include <numbers>
 
 namespace hearth::import::test
@@ -203,6 +207,36 @@ TEST(GltfLights, pointersThatCannotBeAreRefused)
         refusal(R"({"sampler":0,"target":{"path":"pointer","extensions":{"KHR_animation_pointer":{}}}})"),
         HasSubstr("pointer"));
     EXPECT_THAT(refusal(channel(0, lightPointer(0, "color"))), HasSubstr("cannot be a SCALAR of FLOAT"));
+}
+
+/// Imports UnityGLTF's sample of the extension.
+TEST(GltfLights, channelsOfAnExporterAreKept)
+{
+    const char* assets = std::getenv("HEARTH_ASSETS");
+    const std::string path = std::string(assets == nullptr ? "" : assets) +
+                             "/good/animation/animation_pointer/24_animation_pointer.gltf";
+    std::ifstream file(path, std::ios::binary);
+    if (!file)
+        GTEST_SKIP() << "HEARTH_ASSETS does not name a folder with the sample";
+    const std::string text{std::istreambuf_iterator<char>(file), {}};
+    const auto content = std::as_bytes(std::span(text));
+    const TemporaryFolder folder;
+    auto part = PartBuilder::create(folder.path("out.part"), "sample.gltf");
+    ASSERT_TRUE(part.ok());
+    const Status status = importGltf(path, FileBytes({content.begin(), content.end()}), {}, *part);
+    ASSERT_TRUE(status.ok()) << formatMessage(status.error());
+    ASSERT_EQ(part->animations.size(), 1u);
+    ASSERT_EQ(part->animations[0].light_channels.count, 11u);
+    std::map<std::string, uint32_t> keys; ///< of the spot with a range
+    for (const AnimationChannelRecord& record : part->channels)
+        if (kAnimationPaths[record.path].of_light &&
+            part->text(part->lights[record.target].name) == "KHR_lights_punctual-spot2")
+            keys[std::string(kAnimationPaths[record.path].name)] = record.key_count;
+    EXPECT_EQ(keys, (std::map<std::string, uint32_t>{{"color", 301},
+                                                     {"intensity", 208},
+                                                     {"range", 99},
+                                                     {"spot/innerConeAngle", 208},
+                                                     {"spot/outerConeAngle", 208}}));
 }
 
 TEST(GltfLights, flickerIsReadFromExtras)
