@@ -13,16 +13,35 @@ namespace
 {
 
 // a pyramid is 1/4 + 1/16 + ... of the pixels; two texels of 16 bytes and 112 bytes of points per 64 pixels,
-// twice; 64 words per 4096 pixels
+// twice; 64 words per 4096 pixels; a quarter of the pixels from level to level of bloom
 constexpr ResourceFacts kResources[] = {
-    {"visibility", ResourceKind::attachment, 4},     {"depth", ResourceKind::attachment, 4},
-    {"color", ResourceKind::attachment, 4},          {"pyramid", ResourceKind::image, 4.0f / 3},
-    {"gathered light", ResourceKind::image, 0.5f},   {"gather points", ResourceKind::buffer, 1.75f},
-    {"tile lists", ResourceKind::buffer, 0.0625f},   {"shadow map", ResourceKind::shadow_map, 4},
-    {"scene tables", ResourceKind::buffer, 0},       {"pages", ResourceKind::buffer, 0, true},
-    {"work lists", ResourceKind::buffer, 0},         {"visible list", ResourceKind::buffer, 0, true},
-    {"caster lists", ResourceKind::buffer, 0, true}, {"brick light", ResourceKind::buffer, 0},
+    {"visibility", ResourceKind::attachment, 4},
+    {"depth", ResourceKind::attachment, 4},
+    {"color", ResourceKind::attachment, 4},
+    {"pyramid", ResourceKind::image, 4.0f / 3},
+    {"gathered light", ResourceKind::image, 0.5f},
+    {"gather points", ResourceKind::buffer, 1.75f},
+    {"tile lists", ResourceKind::buffer, 0.0625f},
+    {"shadow map", ResourceKind::shadow_map, 4},
+    {"scene tables", ResourceKind::buffer, 0},
+    {"pages", ResourceKind::buffer, 0, true},
+    {"work lists", ResourceKind::buffer, 0},
+    {"visible list", ResourceKind::buffer, 0, true},
+    {"caster lists", ResourceKind::buffer, 0, true},
+    {"brick light", ResourceKind::buffer, 0},
     {"light lists", ResourceKind::buffer, 0, true},
+    {"radiance", ResourceKind::attachment, 4},
+    {"bloom level 1", ResourceKind::attachment, 1},
+    {"bloom level 2", ResourceKind::attachment, 1.0f / 4},
+    {"bloom level 3", ResourceKind::attachment, 1.0f / 16},
+    {"bloom level 4", ResourceKind::attachment, 1.0f / 64},
+    {"bloom level 5", ResourceKind::attachment, 1.0f / 256},
+    {"bloom sum 1", ResourceKind::attachment, 1},
+    {"bloom sum 2", ResourceKind::attachment, 1.0f / 4},
+    {"bloom sum 3", ResourceKind::attachment, 1.0f / 16},
+    {"bloom sum 4", ResourceKind::attachment, 1.0f / 64},
+    {"exposure", ResourceKind::attachment, 0},
+    {"last exposure", ResourceKind::attachment, 0},
 };
 static_assert(std::size(kResources) == static_cast<size_t>(FrameResource::count));
 
@@ -30,7 +49,8 @@ constexpr const char* kSteps[] = {
     "update",        "list lights",       "light bricks", "shadow cull",  "shadow map",
     "shadow copy",   "moving shadow map", "cull",         "last pyramid", "early visibility",
     "early pyramid", "late cull",         "visibility",   "pyramid",      "material tiles",
-    "gather light",  "shading",
+    "gather light",  "shading",           "exposure",     "bloom down",   "bloom up",
+    "final",
 };
 static_assert(std::size(kSteps) == static_cast<size_t>(FrameStep::count));
 

@@ -4,6 +4,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "formats/gpu_shared/post.h"
 #include "runtime/gpu/vulkan/device_table.h"
 
 #include <cstdint>
@@ -33,8 +34,43 @@ enum class FrameResource : uint8_t
     caster_lists,   ///< the same of shadow maps
     brick_light,    ///< light of the faces of bricks
     light_lists,    ///< lights of the frame and of the cells of its light grid
+    radiance,       ///< linear colours of the frame, before a final pass; attachment
+    bloom_level_1,  ///< attachment of half the frame's side; each of the next four is half the one before
+    bloom_level_2,
+    bloom_level_3,
+    bloom_level_4,
+    bloom_level_5,
+    bloom_sum_1, ///< sum of that level and the coarser ones; attachment
+    bloom_sum_2,
+    bloom_sum_3,
+    bloom_sum_4,
+    exposure,      ///< stops of automatic exposure; attachment of one pixel
+    last_exposure, ///< of the last frame: both change their places from frame to frame
     count,
 };
+
+/// Return a level of bloom.
+/// level  1 to shared::kBloomLevels
+constexpr FrameResource bloomLevel(uint32_t level)
+{
+    static_assert(shared::kBloomLevels == static_cast<uint32_t>(FrameResource::bloom_sum_1) -
+                                              static_cast<uint32_t>(FrameResource::bloom_level_1));
+    return static_cast<FrameResource>(static_cast<uint32_t>(FrameResource::bloom_level_1) + level - 1);
+}
+
+/// Return the sum of a level of bloom and the coarser ones; of the last one, the level itself.
+constexpr FrameResource bloomSum(uint32_t level)
+{
+    return level == shared::kBloomLevels
+               ? bloomLevel(level)
+               : static_cast<FrameResource>(static_cast<uint32_t>(FrameResource::bloom_sum_1) + level - 1);
+}
+
+/// True if an image has linear colours: FrameConfiguration::radiance_format.
+constexpr bool isLinear(FrameResource resource)
+{
+    return resource >= FrameResource::radiance && resource <= FrameResource::bloom_sum_4;
+}
 
 /// Unit of a resource's size.
 enum class ResourceKind : uint8_t
@@ -76,6 +112,10 @@ enum class FrameStep : uint8_t
     material_tiles,
     gather,
     shading,
+    exposure,   ///< automatic exposure, by the last frame's light
+    bloom_down, ///< a level of bloom
+    bloom_up,   ///< a sum of levels
+    final_pass,
     count,
 };
 const char* stepName(FrameStep step);
@@ -211,7 +251,8 @@ struct Pass
     PassBarrier vertex_barrier{};
     /// Number of the shadow map that the pass draws, or begins, in a layer of its own.
     std::optional<uint32_t> map{};
-    VkFormat map_format = VK_FORMAT_UNDEFINED; ///< of that map
+    VkFormat map_format = VK_FORMAT_UNDEFINED;      ///< of that map
+    VkFormat radiance_format = VK_FORMAT_UNDEFINED; ///< as FrameConfiguration
     /// Images that the pass reads and the caller gets after it, visible to transfers.
     std::vector<LayoutChange> handed_out{};
 };
@@ -273,6 +314,10 @@ enum class MaterialTest : uint8_t
     id,    ///< the shader compares numbers, and the depth stays; a stencil of their low bits rejects early
 };
 
+/// Format of linear colours, and of bloom: 4 bytes a pixel. Devices that cannot draw to it, and callers that
+/// need more than 6 bits of fraction, have R16G16B16A16_SFLOAT.
+inline constexpr VkFormat kPackedRadiance = VK_FORMAT_B10G11R11_UFLOAT_PACK32;
+
 /// Everything that decides which passes a frame has.
 struct FrameConfiguration
 {
@@ -290,6 +335,11 @@ struct FrameConfiguration
     bool lights_bricks = false;
     std::vector<MapContent> maps{}; ///< shadow maps that the frame draws, in order; the others are cached
     uint32_t maps_at_once = 8;      ///< maps whose casters are found before any of them is drawn
+    /// Shading writes linear colours, and a pass of its own finishes them. The next two need it.
+    bool has_final_pass = false;
+    bool adapts_exposure = false; ///< automatic exposure
+    bool blooms = false;
+    VkFormat radiance_format = kPackedRadiance;
 };
 
 struct FrameDescription

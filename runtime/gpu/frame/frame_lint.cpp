@@ -24,7 +24,8 @@ double bytesPerPixel(const Pass& pass, Resource resource)
 {
     if (resource == Resource::shadow_map && pass.map_format == VK_FORMAT_D16_UNORM)
         return 2;
-    return double{resourceFacts(resource).bytes_per_pixel};
+    const double bytes = double{resourceFacts(resource).bytes_per_pixel};
+    return isLinear(resource) && pass.radiance_format != kPackedRadiance ? 2 * bytes : bytes;
 }
 
 bool isBuffer(Resource resource)
@@ -242,7 +243,7 @@ private:
         uint32_t bits = 0;
         for (const AttachmentUse& use : pass_->attachments)
             if (use.resource != Resource::depth && use.resource != Resource::shadow_map)
-                bits += static_cast<uint32_t>(8 * resourceFacts(use.resource).bytes_per_pixel);
+                bits += static_cast<uint32_t>(8 * bytesPerPixel(*pass_, use.resource));
         const std::string text = std::to_string(bits) + " bits a pixel of colours and inputs are more than ";
         if (bits > limits_.error_bits)
             error(LintRule::tile_storage, text + std::to_string(limits_.error_bits));

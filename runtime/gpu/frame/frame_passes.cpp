@@ -22,9 +22,13 @@ VkFormat attachmentFormat(const Pass& pass, FrameResource resource, MaterialTest
         return depthFormat(materials);
     case FrameResource::shadow_map:
         return pass.map_format;
-    default:
-        HEARTH_ASSERT(resource == FrameResource::color);
+    case FrameResource::color:
         return kColorFormat;
+    case FrameResource::exposure:
+        return kExposureFormat;
+    default:
+        HEARTH_ASSERT(isLinear(resource));
+        return pass.radiance_format;
     }
 }
 
@@ -207,22 +211,26 @@ Result<PlannedPass> FramePasses::findOrCreate(const Device& device, const Pass& 
     return planned;
 }
 
-Result<FramePasses> FramePasses::create(const Device& device, FrameWay way, MaterialTest materials)
+Result<FramePasses> FramePasses::create(const Device& device, FrameWay way, MaterialTest materials,
+                                        std::optional<VkFormat> radiance_format)
 {
     FramePasses passes;
     passes.way_ = way;
     passes.materials_ = materials;
-    const std::vector<FrameConfiguration> without_shadows = allConfigurations(way, materials);
-    std::vector<FrameConfiguration> configurations = without_shadows;
-    for (const VkFormat format : {VK_FORMAT_D32_SFLOAT, VK_FORMAT_D16_UNORM})
-        for (FrameConfiguration configuration : without_shadows)
+    passes.radiance_format_ = radiance_format;
+    std::vector<FrameConfiguration> configurations;
+    for (FrameConfiguration configuration : allConfigurations(way, materials, passes.hasFinalPasses()))
+    {
+        configuration.lists_lights = configuration.lights_bricks = true;
+        configuration.radiance_format = passes.radianceFormat();
+        configurations.push_back(configuration);
+        addMapsOfAllKinds(configuration);
+        for (const VkFormat format : {VK_FORMAT_D32_SFLOAT, VK_FORMAT_D16_UNORM})
         {
-            addMapsOfAllKinds(configuration);
             configuration.shadow_format = format;
             configurations.push_back(configuration);
         }
-    for (FrameConfiguration& configuration : configurations)
-        configuration.lists_lights = configuration.lights_bricks = true;
+    }
     for (FrameDescription& description : describeFrames(configurations))
     {
         FramePlan plan{std::move(description), {}};
@@ -246,7 +254,7 @@ size_t FramePasses::planNumber(const FrameConfiguration& configuration)
     const size_t shadows = !configuration.has_shadows                            ? 0
                            : configuration.shadow_format == VK_FORMAT_D32_SFLOAT ? 1
                                                                                  : 2;
-    return shadows * kConfigurationCount + configurationIndex(configuration);
+    return 3 * configurationIndex(configuration) + shadows;
 }
 
 const FramePlan& FramePasses::plan(const FrameConfiguration& configuration) const

@@ -15,6 +15,8 @@ namespace hearth::gpu
 
 inline constexpr VkFormat kVisibilityFormat = VK_FORMAT_R32_UINT;
 inline constexpr VkFormat kColorFormat = VK_FORMAT_R8G8B8A8_SRGB;
+/// Stops of automatic exposure.
+inline constexpr VkFormat kExposureFormat = VK_FORMAT_R32_SFLOAT;
 /// Depth and, with MaterialTest::id, a stencil of the low bits of material numbers.
 constexpr VkFormat depthFormat(MaterialTest materials)
 {
@@ -54,19 +56,35 @@ struct DrawPlace
 class FramePasses
 {
 public:
+    /// radiance_format  as FrameConfiguration, of frames with a final pass; none: there are no such frames
     /// errors: device_failed.
-    static Result<FramePasses> create(const Device& device, FrameWay way, MaterialTest materials);
+    static Result<FramePasses> create(const Device& device, FrameWay way, MaterialTest materials,
+                                      std::optional<VkFormat> radiance_format = {});
 
     FrameWay way() const { return way_; }
     MaterialTest materials() const { return materials_; }
+    bool hasFinalPasses() const { return radiance_format_.has_value(); }
+    VkFormat radianceFormat() const { return radiance_format_.value_or(kPackedRadiance); }
     /// Plan of a configuration; its way, its test of materials, its bricks and its maps do not matter.
     const FramePlan& plan(const FrameConfiguration& configuration) const;
     /// Families of the passes of the frame's size.
     std::span<const PassFamily> families() const { return families_; }
-    /// Return the place of pipelines that draw into the visibility buffer.
-    DrawPlace visibilityPlace() const { return findPlace(plans_.front(), FrameStep::visibility); }
+    /// Return the place of pipelines that draw into the visibility buffer of frames with a final pass, or of
+    /// those without.
+    DrawPlace visibilityPlace(bool has_final_pass = false) const
+    {
+        return findPlace(plan({.has_final_pass = has_final_pass}), FrameStep::visibility);
+    }
     /// Return the place of pipelines that draw into the shaded frame.
-    DrawPlace shadingPlace() const { return findPlace(plans_.front(), FrameStep::shading); }
+    DrawPlace shadingPlace(bool has_final_pass = false) const
+    {
+        return findPlace(plan({.has_final_pass = has_final_pass}), FrameStep::shading);
+    }
+    /// Return the place of pipelines of a step behind shading.
+    DrawPlace filterPlace(FrameStep step) const
+    {
+        return findPlace(plan({.has_final_pass = true, .adapts_exposure = true, .blooms = true}), step);
+    }
     /// Return a render pass that draws a shadow map of a format; all of it are compatible.
     VkRenderPass shadowMapPass(VkFormat format) const;
 
@@ -74,13 +92,14 @@ private:
     /// Format of a shadow map; load and store operations and layouts of the attachments.
     using Key = std::vector<uint32_t>;
     Result<PlannedPass> findOrCreate(const Device& device, const Pass& pass);
-    /// Number of a plan: configurationIndex without shadows, then with 32-bit maps, then with 16-bit maps.
+    /// Number of a plan: those of a configuration are without shadows, with 32-bit maps, with 16-bit maps.
     static size_t planNumber(const FrameConfiguration& configuration);
     /// Any plan will do: passes of a family have the same subpasses.
     static DrawPlace findPlace(const FramePlan& plan, FrameStep step);
 
     FrameWay way_ = FrameWay::merged;
     MaterialTest materials_ = MaterialTest::depth;
+    std::optional<VkFormat> radiance_format_;
     std::vector<FramePlan> plans_; ///< [planNumber]
     std::vector<PassFamily> families_;
     struct CreatedPass

@@ -93,6 +93,12 @@ Step pyramidStep(FrameStep step)
                      {Resource::pyramid, Access::compute_write, Content::overwrite}}};
 }
 
+/// Return what shading draws to.
+Resource shadedResource(const FrameConfiguration& c)
+{
+    return c.has_final_pass ? Resource::radiance : Resource::color;
+}
+
 Step shadingStep(const FrameConfiguration& c)
 {
     const bool by_depth = c.materials == MaterialTest::depth;
@@ -100,7 +106,7 @@ Step shadingStep(const FrameConfiguration& c)
               .kind = PassKind::render,
               .attachments = {{Resource::depth, by_depth ? Access::depth_write : Access::depth_keep,
                                by_depth ? Content::overwrite : Content::keep},
-                              {Resource::color, Access::color_write,
+                              {shadedResource(c), Access::color_write,
                                c.shows_overdraw ? Content::begin : Content::overwrite}},
               .draws = {.cover = c.material_tiles ? Cover::tiles : Cover::triangle,
                         .discards = !by_depth,
@@ -121,6 +127,40 @@ Step shadingStep(const FrameConfiguration& c)
     if (c.lists_lights)
         step.uses.push_back({Resource::light_lists, Access::fragment_read});
     return step;
+}
+
+/// Draw a triangle to a whole image, from others.
+Step filterStep(FrameStep step, Resource target, std::initializer_list<Resource> sources)
+{
+    Step filter{.step = step,
+                .kind = PassKind::render,
+                .attachments = {{target, Access::color_write, Content::overwrite}},
+                .draws = {.cover = Cover::triangle}};
+    for (const Resource source : sources)
+        filter.uses.push_back({source, Access::fragment_read});
+    return filter;
+}
+
+/// List the steps behind shading: automatic exposure, bloom, and the final pass.
+void addFinalSteps(const FrameConfiguration& c, std::vector<Step>& steps)
+{
+    if (!c.has_final_pass)
+        return;
+    if (c.adapts_exposure)
+        steps.push_back(filterStep(FrameStep::exposure, Resource::exposure,
+                                   {bloomLevel(shared::kBloomLevels), Resource::last_exposure}));
+    for (uint32_t level = 1; level <= shared::kBloomLevels && (c.blooms || c.adapts_exposure); ++level)
+        steps.push_back(filterStep(FrameStep::bloom_down, bloomLevel(level),
+                                   {level == 1 ? Resource::radiance : bloomLevel(level - 1)}));
+    for (uint32_t level = shared::kBloomLevels - 1; level >= 1 && c.blooms; --level)
+        steps.push_back(
+            filterStep(FrameStep::bloom_up, bloomSum(level), {bloomLevel(level), bloomSum(level + 1)}));
+    Step last = filterStep(FrameStep::final_pass, Resource::color, {Resource::radiance});
+    if (c.blooms)
+        last.uses.push_back({bloomSum(1), Access::fragment_read});
+    if (c.adapts_exposure)
+        last.uses.push_back({Resource::exposure, Access::fragment_read});
+    steps.push_back(std::move(last));
 }
 
 /// True if shading cannot follow the visibility buffer in one render pass.
@@ -191,6 +231,7 @@ std::vector<Step> listSteps(const FrameConfiguration& c)
                                   {Resource::gather_points, Access::compute_write, Content::keep},
                                   {Resource::gathered_light, Access::compute_write, Content::overwrite}}});
     steps.push_back(shadingStep(c));
+    addFinalSteps(c, steps);
     return steps;
 }
 
@@ -231,7 +272,8 @@ std::vector<Pass> joinSteps(const FrameConfiguration& c, const std::vector<Step>
                   .uses = step.uses,
                   .host_write = step.host_write,
                   .map = step.map,
-                  .map_format = step.map ? c.shadow_format : VK_FORMAT_UNDEFINED};
+                  .map_format = step.map ? c.shadow_format : VK_FORMAT_UNDEFINED,
+                  .radiance_format = c.has_final_pass ? c.radiance_format : kPackedRadiance};
         const bool has_subpasses = hasSubpasses(c.way);
         if (has_subpasses && drawsVisibility(step.step))
             pass.subpasses = {makeSubpass(step), makeEmptySubpass(shadingStep(c))};
@@ -293,6 +335,16 @@ bool isHandedOut(const FrameConfiguration& c, Resource resource)
     return resource == Resource::color || (resource == Resource::visibility && c.keeps_visibility);
 }
 
+/// Return the access by which the next frame reads an attachment that this one is to leave to it.
+std::optional<Access> readByNextFrame(const FrameConfiguration& c, Resource resource)
+{
+    if (resource == Resource::depth && defersPyramid(c))
+        return Access::sampled;
+    if (resource == bloomLevel(shared::kBloomLevels) && c.adapts_exposure)
+        return Access::fragment_read;
+    return std::nullopt;
+}
+
 /// Return the attachment in the layout of its last use in a pass.
 VkImageLayout lastLayout(const Pass& pass, Resource resource)
 {
@@ -310,9 +362,9 @@ void setAttachments(const FrameConfiguration& c, std::span<Pass> passes, size_t 
                     std::array<VkImageLayout, kResourceCount>& stored)
 {
     Pass& pass = passes[number];
-    for (const Resource resource :
-         {Resource::visibility, Resource::depth, Resource::color, Resource::shadow_map})
+    for (size_t i = 0; i < kResourceCount; ++i)
     {
+        const auto resource = static_cast<Resource>(i);
         VkImageLayout& before = stored[static_cast<size_t>(resource)];
         const VkImageLayout own = lastLayout(pass, resource);
         if (own == VK_IMAGE_LAYOUT_UNDEFINED)
@@ -340,11 +392,11 @@ void setAttachments(const FrameConfiguration& c, std::span<Pass> passes, size_t 
             const Access access = firstUse(*reader, resource)->access;
             attachment.final_layout = accessLayout(access);
         }
-        else if (has_content && resource == Resource::depth && defersPyramid(c))
+        else if (const auto access = readByNextFrame(c, resource); has_content && access)
         {
             attachment.store = true;
             attachment.reader = kNextFrame;
-            attachment.final_layout = accessLayout(Access::sampled);
+            attachment.final_layout = accessLayout(*access);
         }
         else if (has_content && isHandedOut(c, resource))
         {
@@ -397,7 +449,13 @@ using Touches = std::array<Touch, kResourceCount>;
 Touches touchesOfEarlierFrames(FrameWay way, MaterialTest materials)
 {
     Touches touches;
-    for (FrameConfiguration c : allConfigurations(way, materials))
+    std::vector<FrameConfiguration> all = allConfigurations(way, materials);
+    all.push_back({.way = way,
+                   .materials = materials,
+                   .has_final_pass = true,
+                   .adapts_exposure = true,
+                   .blooms = true});
+    for (FrameConfiguration c : all)
     {
         c.lists_lights = true;
         c.lights_bricks = true;
@@ -408,8 +466,12 @@ Touches touchesOfEarlierFrames(FrameWay way, MaterialTest materials)
                     if (!resourceFacts(use.resource).has_parts)
                         touches[static_cast<size_t>(use.resource)].add(use.access);
     }
-    for (const Resource resource : {Resource::color, Resource::visibility})
+    for (const Resource resource : {Resource::color, Resource::visibility, Resource::radiance})
         touches[static_cast<size_t>(resource)].stages |= kCallerStages;
+    // an image has been the one in a frame and the other in the next
+    Touch& exposure = touches[static_cast<size_t>(Resource::exposure)];
+    exposure.add(Access::fragment_read);
+    touches[static_cast<size_t>(Resource::last_exposure)] = exposure;
     // tools copy maps
     touches[static_cast<size_t>(Resource::shadow_map)].add(Access::copy_read);
     return touches;
@@ -559,7 +621,7 @@ void addMapsOfAllKinds(FrameConfiguration& configuration)
     configuration.maps_at_once = 2;
 }
 
-std::vector<FrameConfiguration> allConfigurations(FrameWay way, MaterialTest materials)
+std::vector<FrameConfiguration> allConfigurations(FrameWay way, MaterialTest materials, bool has_final_passes)
 {
     std::vector<FrameConfiguration> all;
     for (const OcclusionCulling occlusion :
@@ -574,14 +636,25 @@ std::vector<FrameConfiguration> allConfigurations(FrameWay way, MaterialTest mat
                            .keeps_visibility = (bits & 8) != 0,
                            .shows_overdraw = (bits & 16) != 0});
     HEARTH_ASSERT(all.size() == kConfigurationCount);
+    for (uint32_t finals = 1; finals < kFinalPassCount && has_final_passes; ++finals)
+        for (uint32_t i = 0; i < kConfigurationCount; ++i)
+        {
+            FrameConfiguration c = all[i];
+            c.has_final_pass = true;
+            c.adapts_exposure = ((finals - 1) & 1) != 0;
+            c.blooms = ((finals - 1) & 2) != 0;
+            all.push_back(c);
+        }
     return all;
 }
 
 uint32_t configurationIndex(const FrameConfiguration& c)
 {
     const auto bit = [](bool set, uint32_t number) { return (set ? 1u : 0u) << number; };
-    return 32 * static_cast<uint32_t>(c.occlusion) + bit(c.material_tiles, 0) + bit(c.gathers_light, 1) +
-           bit(c.in_parts, 2) + bit(c.keeps_visibility, 3) + bit(c.shows_overdraw, 4);
+    const uint32_t finals = c.has_final_pass ? 1 + bit(c.adapts_exposure, 0) + bit(c.blooms, 1) : 0;
+    return kConfigurationCount * finals + 32 * static_cast<uint32_t>(c.occlusion) + bit(c.material_tiles, 0) +
+           bit(c.gathers_light, 1) + bit(c.in_parts, 2) + bit(c.keeps_visibility, 3) +
+           bit(c.shows_overdraw, 4);
 }
 
 const Pass* findPass(const FrameDescription& frame, FrameStep step)

@@ -14,11 +14,16 @@ FrameDescription describeFrame(const FrameConfiguration& configuration);
 /// Describe frames that have the way and the material test of the first.
 std::vector<FrameDescription> describeFrames(std::span<const FrameConfiguration> configurations);
 
-/// Number of allConfigurations.
+/// Configurations without a final pass: the first of allConfigurations.
 inline constexpr uint32_t kConfigurationCount = 96;
 
+/// Final passes that a frame may have: none; with and without automatic exposure and bloom.
+inline constexpr uint32_t kFinalPassCount = 5;
+
 /// Return all configurations of a way with a material test; scenes have neither shadows nor bricks.
-std::vector<FrameConfiguration> allConfigurations(FrameWay way, MaterialTest materials);
+/// has_final_passes  with final passes as well: kFinalPassCount times as many
+std::vector<FrameConfiguration> allConfigurations(FrameWay way, MaterialTest materials,
+                                                  bool has_final_passes = false);
 /// Position in the list of all configurations, whatever the scene has.
 uint32_t configurationIndex(const FrameConfiguration& configuration);
 

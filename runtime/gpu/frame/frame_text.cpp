@@ -131,7 +131,9 @@ std::string jsonConfiguration(const FrameConfiguration& c)
            ",\"gathers_light\":" + boolean(c.gathers_light) + ",\"in_parts\":" + boolean(c.in_parts) +
            ",\"keeps_visibility\":" + boolean(c.keeps_visibility) +
            ",\"shows_overdraw\":" + boolean(c.shows_overdraw) + ",\"shadows\":" + boolean(c.has_shadows) +
-           ",\"light_lists\":" + boolean(c.lists_lights) + ",\"bricks\":" + boolean(c.lights_bricks) + "}";
+           ",\"light_lists\":" + boolean(c.lists_lights) + ",\"bricks\":" + boolean(c.lights_bricks) +
+           ",\"final_pass\":" + boolean(c.has_final_pass) +
+           ",\"automatic_exposure\":" + boolean(c.adapts_exposure) + ",\"bloom\":" + boolean(c.blooms) + "}";
 }
 
 } // namespace
@@ -149,7 +151,7 @@ std::string formatFrameText(const FrameDescription& frame)
         for (const AttachmentUse& use : pass.attachments)
             if (use.load != LoadOperation::none || use.store)
                 text +=
-                    "  " + padRight(resourceFacts(use.resource).name, 12) + describeAttachment(use) + "\n";
+                    "  " + padRight(resourceFacts(use.resource).name, 14) + describeAttachment(use) + "\n";
     }
     text += padRight("frame", kName + 9) + columns(measureTraffic(frame)) + "\n";
     if (!frame.transient.empty())

@@ -6,6 +6,7 @@
 #include "runtime/gpu/frame/frame_text.h"
 #include "runtime/gpu/frame/frame_way.h"
 
+#include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
 #include <map>
@@ -24,6 +25,7 @@ using namespace gpu;
 std::vector<FrameConfiguration> everyConfiguration()
 {
     std::vector<FrameConfiguration> all;
+    std::mt19937 random(1);
     for (const FrameWay way : kFrameWays)
         for (const MaterialTest materials : {MaterialTest::depth, MaterialTest::id})
             for (FrameConfiguration c : allConfigurations(way, materials))
@@ -33,6 +35,14 @@ std::vector<FrameConfiguration> everyConfiguration()
                     if (rich)
                         addMapsOfAllKinds(c);
                     all.push_back(c);
+                    // what follows shading does not depend on what lies before it: some have a final pass
+                    if (random() % 8 != 0)
+                        continue;
+                    FrameConfiguration finished = c;
+                    finished.has_final_pass = true;
+                    finished.adapts_exposure = random() % 2 != 0;
+                    finished.blooms = random() % 2 != 0;
+                    all.push_back(finished);
                 }
     return all;
 }
@@ -179,6 +189,10 @@ const AllowedWarning kAllowed[] = {
     {LintRule::bubble, "material tiles", "visibility",
      "many materials: a tile is drawn for those that it has"},
     {LintRule::bubble, "gather light", "visibility", "light is gathered where surfaces are visible"},
+    {LintRule::spill, "exposure", "left the tile", "the last frame's light and exposure"},
+    {LintRule::spill, "bloom down", "left the tile", "filters read neighbours"},
+    {LintRule::spill, "bloom up", "left the tile", "as above"},
+    {LintRule::spill, "final", "left the tile", "bloom reads neighbours, an output of another size too"},
     {LintRule::late_depth, "shading", "writes the depth", "material numbers as depth"},
     {LintRule::late_depth, "visibility + shading", "writes the depth", "material numbers as depth"},
     {LintRule::late_depth, "shading", "discards", "pixels of other materials, behind the stencil"},
@@ -481,6 +495,59 @@ TEST(FramePasses, storeTheBytesOfAShadowMapsDepths)
         EXPECT_DOUBLE_EQ(measureTraffic(*findPass(frame, FrameStep::shadow_copy)).low, 2 * bytes);
         EXPECT_DOUBLE_EQ(measureTraffic(frame).low, measureTraffic(describeFrame({})).low);
     }
+}
+
+TEST(FramePasses, finalPassesTakeFewBytes)
+{
+    const auto low = [](const FrameConfiguration& c) { return measureTraffic(describeFrame(c)).low; };
+    const double in_tile = low({});
+    FrameConfiguration c{.has_final_pass = true};
+    EXPECT_DOUBLE_EQ(low(c), in_tile + 8) << "linear colours are stored and read";
+    c.blooms = true;
+    // down: each level of 4, 1, 1/4 ... bytes is read and the next written; up: a level and a sum are read
+    double levels = 0, size = 4;
+    for (int level = 1; level <= 5; ++level, size /= 4)
+        levels += size + size / 4;
+    for (int level = 1; level <= 4; ++level)
+        levels += std::pow(0.25, level - 1) * (1 + 0.25 + 1);
+    EXPECT_DOUBLE_EQ(low(c), in_tile + 8 + levels + 1);
+    EXPECT_LE(low(c) - in_tile + 4, 22.7) << "with the store of the frame, 22.6 are estimated";
+    c.adapts_exposure = true;
+    const double last_level = 4 * std::pow(0.25, 5); // which automatic exposure reads once more
+    EXPECT_DOUBLE_EQ(low(c), in_tile + 8 + levels + 1 + last_level);
+    c.radiance_format = VK_FORMAT_R16G16B16A16_SFLOAT;
+    EXPECT_DOUBLE_EQ(low(c), in_tile + 8 + levels + 1 + last_level + 8 + levels + 1 + last_level);
+}
+
+TEST(FramePasses, onlyTheFinalPassStoresTheImage)
+{
+    for (const bool has_final_pass : {false, true})
+    {
+        const FrameDescription frame =
+            describeFrame({.has_final_pass = has_final_pass, .adapts_exposure = has_final_pass});
+        size_t stores = 0;
+        for (const Pass& pass : frame.passes)
+            for (const AttachmentUse& use : pass.attachments)
+                stores += use.resource == FrameResource::color && use.store ? 1 : 0;
+        EXPECT_EQ(stores, 1u);
+        EXPECT_EQ(frame.passes.back().steps.back(),
+                  has_final_pass ? FrameStep::final_pass : FrameStep::shading);
+    }
+}
+
+TEST(FramePasses, automaticExposureWaitsForFragmentsAlone)
+{
+    const FrameDescription frame = describeFrame({.has_final_pass = true, .adapts_exposure = true});
+    const Pass& exposure = *findPass(frame, FrameStep::exposure);
+    EXPECT_EQ(exposure.barrier.from, 0u);
+    constexpr VkPipelineStageFlags kFragments =
+        VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+    EXPECT_EQ(exposure.fragment_barrier.from & ~kFragments, 0u);
+    EXPECT_NE(exposure.fragment_barrier.from & VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT, 0u);
+    const AttachmentUse& last = *std::find_if(
+        frame.passes.end()[-2].attachments.begin(), frame.passes.end()[-2].attachments.end(),
+        [](const AttachmentUse& use) { return use.resource == bloomLevel(shared::kBloomLevels); });
+    EXPECT_STREQ(last.reader, kNextFrame);
 }
 
 TEST(FramePasses, sumToTheFrame)
