@@ -152,6 +152,13 @@ HEARTH_CONSTANT uint kGatherPoints = 1;
 HEARTH_CONSTANT uint kGatherHistory = 2; ///< points of the last frame
 HEARTH_CONSTANT uint kGatherTexels = 3;  ///< texels that shading reads
 
+/// Set of bloom, automatic exposure and the final pass: they have no other.
+HEARTH_CONSTANT uint kSetPost = 0;
+
+HEARTH_CONSTANT uint kPostRadiance = 0; ///< the frame, or a level of bloom
+HEARTH_CONSTANT uint kPostBloom = 1;    ///< coarser levels
+HEARTH_CONSTANT uint kPostExposure = 2; ///< of the last frame, or of this one
+
 HEARTH_SHARED_END
 
 #endif

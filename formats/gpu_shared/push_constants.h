@@ -123,6 +123,47 @@ struct ShadingPush
     uint debug_view;
     float depth_scale;  ///< metres that the depth view shows as half brightness
     uint sky_occlusion; ///< skyOcclusionBits
+    float exposure;     ///< factor of the radiance
+    float filter_red;   ///< photo filter: its colour
+    float filter_green;
+    float filter_blue;
+    float filter_density; ///< 0: no filter
+};
+
+/// Downsampling of bloom.
+struct BloomDownPush
+{
+    uint dims_fireflies; ///< 1: bright texels of the source weigh less, for the first level
+};
+
+/// Upsampling of bloom.
+struct BloomUpPush
+{
+    float share; ///< of the coarser levels; the rest is the level's own
+};
+
+/// Automatic exposure.
+struct ExposurePush
+{
+    float key;        ///< luminance that the mean of the frame gets
+    float share;      ///< by which the exposure goes from the last one to that
+    uint has_light;   ///< 1: the last frame has left its last level of bloom
+    uint has_history; ///< 1: the last frame has left its exposure
+};
+
+/// Final pass.
+struct FinalPush
+{
+    float width; ///< pixels of the finished image
+    float height;
+    float exposure; ///< as ShadingPush, as the next four
+    float filter_red;
+    float filter_green;
+    float filter_blue;
+    float filter_density;
+    float bloom_strength; ///< share of the bloom, or factor
+    uint adds_bloom;      ///< 1: the bloom is added; 0: it replaces a share of the colour
+    uint shows_data;      ///< 1: the image has display colours already, of a debug view
 };
 
 HEARTH_SHARED_END

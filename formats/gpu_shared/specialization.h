@@ -21,7 +21,9 @@ HEARTH_CONSTANT uint kConstantComparesMaterial = 7;
 /// 1: compares with shadow maps may be bilinear; 0: the device filters no depths of their format.
 HEARTH_CONSTANT uint kConstantFiltersShadows = 8;
 HEARTH_CONSTANT uint kConstantLightList = 9; ///< lights that a pixel evaluates, below
-HEARTH_CONSTANT uint kConstantCount = 10;
+/// Colour that shading writes, and the format of bloom: kStored*, below.
+HEARTH_CONSTANT uint kConstantStored = 10;
+HEARTH_CONSTANT uint kConstantCount = 11;
 
 /// Lights that a pixel evaluates, beside those that every point gets.
 HEARTH_CONSTANT uint kLightListFrame = 0; ///< all of the frame
@@ -32,6 +34,11 @@ HEARTH_CONSTANT uint kDeformedNone = 0; ///< no deformed meshes: rigid scenes an
 HEARTH_CONSTANT uint kDeformedOnDemand = 1; ///< skinned on demand by the shader that draws
 /// Skinned by an earlier pass, as far as the scratch buffer has room.
 HEARTH_CONSTANT uint kDeformedPreSkinned = 2;
+
+HEARTH_CONSTANT uint kStoredDisplay = 0; ///< the finished colour
+HEARTH_CONSTANT uint kStoredGraded = 1;  ///< the same, with exposure and photo filter
+HEARTH_CONSTANT uint kStoredPacked = 2;  ///< radiance in B10G11R11_UFLOAT
+HEARTH_CONSTANT uint kStoredHalf = 3;    ///< radiance in R16G16B16A16_SFLOAT
 
 HEARTH_SHARED_END
 

@@ -28,6 +28,16 @@ constexpr RequiredFormat kStencilFormat = {
     VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT | VK_FORMAT_FEATURE_DEPTH_STENCIL_ATTACHMENT_BIT,
     "D32_SFLOAT_S8_UINT", "materials by id; by depth (--materials depth) they need no stencil"};
 
+constexpr VkFormatFeatureFlags kDrawnAndFiltered = VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT |
+                                                   VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT |
+                                                   VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT;
+constexpr RequiredFormat kHalfFormat = {VK_FORMAT_R16G16B16A16_SFLOAT,
+                                        kDrawnAndFiltered | VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT,
+                                        "R16G16B16A16_SFLOAT", "linear colours of frames with a final pass"};
+constexpr RequiredFormat kStopsFormat = {
+    kExposureFormat, VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT | VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT,
+    "R32_SFLOAT", "automatic exposure"};
+
 OcclusionCulling occlusionCulling(const FrameInput& input)
 {
     if ((input.view.flags & shared::kCullOcclusion) == 0)
@@ -60,7 +70,11 @@ FrameConfiguration configure(const Scene& scene, const FrameTargets& targets, co
             .shadow_format = scene.shadows == nullptr ? FrameConfiguration{}.shadow_format
                                                       : shadowFormat(scene.shadows->depth().depth),
             .lists_lights = scene.lights->listsOnDevice(input.shading.light_lister),
-            .lights_bricks = scene.bricks != nullptr};
+            .lights_bricks = scene.bricks != nullptr,
+            .has_final_pass = alwaysHasFinalPass(targets.options(), targets.extent()) ||
+                              usesBloom(input.shading) || adaptsExposure(input.shading),
+            .adapts_exposure = adaptsExposure(input.shading),
+            .blooms = usesBloom(input.shading)};
 }
 
 shared::FrameView scaledView(const Scene& scene, const shared::FrameView& view)
@@ -83,24 +97,65 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const DeviceDescription& desc
 {
     std::unique_ptr<Renderer> renderer(new Renderer);
     Renderer& r = *renderer;
-    const bool has_stencil = options.materials == MaterialTest::id;
-    HEARTH_ASSIGN_OR_RETURN(r.device_,
-                            makeDevice(description, has_stencil ? std::span(&kStencilFormat, 1)
-                                                                : std::span<const RequiredFormat>()));
+    std::vector<RequiredFormat> formats;
+    if (options.materials == MaterialTest::id)
+        formats.push_back(kStencilFormat);
+    const bool has_final_passes = options.post >= PostSupport::packed;
+    if (has_final_passes)
+        formats.insert(formats.end(), {kHalfFormat, kStopsFormat});
+    HEARTH_ASSIGN_OR_RETURN(r.device_, makeDevice(description, formats));
     const FrameWay way = options.way.value_or(chooseFrameWay(r.device_.identity));
     HEARTH_ASSIGN_OR_RETURN(r.layouts_, DrawLayouts::create(r.device_, shadingDescriptors(way)));
-    HEARTH_ASSIGN_OR_RETURN(r.passes_, FramePasses::create(r.device_, way, options.materials));
+    r.post_support_ = options.post;
+    std::optional<VkFormat> radiance_format;
+    if (has_final_passes)
+        radiance_format = options.post == PostSupport::packed && r.device_.draws_packed_floats
+                              ? kPackedRadiance
+                              : kHalfFormat.format;
+    HEARTH_ASSIGN_OR_RETURN(r.passes_,
+                            FramePasses::create(r.device_, way, options.materials, radiance_format));
     HEARTH_ASSIGN_OR_RETURN(r.light_lists_, LightListsPass::create(r.device_, r.layouts_));
     HEARTH_ASSIGN_OR_RETURN(r.cull_, CullPass::create(r.device_, r.layouts_));
     HEARTH_ASSIGN_OR_RETURN(r.copy_words_, WordCopyPass::create(r.device_));
     HEARTH_ASSIGN_OR_RETURN(r.page_requests_, PageRequestPass::create(r.device_));
     HEARTH_ASSIGN_OR_RETURN(r.pyramid_, PyramidPass::create(r.device_, r.layouts_));
     HEARTH_ASSIGN_OR_RETURN(r.material_tiles_, MaterialTilesPass::create(r.device_, r.layouts_));
-    HEARTH_ASSIGN_OR_RETURN(r.visibility_,
-                            BinPass::createVisibility(r.device_, r.layouts_, r.passes_.visibilityPlace()));
-    HEARTH_ASSIGN_OR_RETURN(r.material_marks_, MaterialMarksPass::create(r.device_, r.layouts_, r.passes_));
-    HEARTH_ASSIGN_OR_RETURN(r.shading_, ShadingPass::create(r.device_, r.layouts_, r.passes_));
+    for (const bool has_final_pass : {false, true})
+        if (!has_final_pass || r.passes_.hasFinalPasses())
+        {
+            HEARTH_ASSIGN_OR_RETURN(DrawPasses draws, r.createDrawPasses(has_final_pass));
+            r.draws_.push_back(std::move(draws));
+        }
+    if (r.passes_.hasFinalPasses())
+    {
+        HEARTH_ASSIGN_OR_RETURN(r.post_, PostPass::create(r.device_, r.layouts_, r.passes_));
+    }
     return renderer;
+}
+
+Result<Renderer::DrawPasses> Renderer::createDrawPasses(bool has_final_pass) const
+{
+    DrawPasses draws;
+    HEARTH_ASSIGN_OR_RETURN(
+        draws.visibility,
+        BinPass::createVisibility(device_, layouts_, passes_.visibilityPlace(has_final_pass)));
+    HEARTH_ASSIGN_OR_RETURN(draws.material_marks,
+                            MaterialMarksPass::create(device_, layouts_, passes_, has_final_pass));
+    HEARTH_ASSIGN_OR_RETURN(draws.shading, ShadingPass::create(device_, layouts_, passes_, has_final_pass,
+                                                               storedColor(has_final_pass)));
+    return draws;
+}
+
+uint32_t Renderer::storedColor(bool has_final_pass) const
+{
+    if (!has_final_pass)
+        return post_support_ == PostSupport::none ? shared::kStoredDisplay : shared::kStoredGraded;
+    return passes_.radianceFormat() == kPackedRadiance ? shared::kStoredPacked : shared::kStoredHalf;
+}
+
+const Renderer::DrawPasses& Renderer::drawPasses(const PassRecorder& passes) const
+{
+    return draws_[passes.has(FrameStep::final_pass) ? 1 : 0];
 }
 
 Result<FrameTargets> Renderer::createTargets(VkExtent2D extent, const TargetOptions& options) const
@@ -113,6 +168,7 @@ FrameDescription Renderer::describe(const Scene& scene, const FrameTargets& targ
 {
     FrameConfiguration configuration = configure(scene, targets, input, in_parts);
     configuration.way = passes_.way();
+    configuration.radiance_format = passes_.radianceFormat();
     configuration.materials = passes_.materials();
     if (scene.shadows != nullptr)
     {
@@ -129,6 +185,7 @@ const FramePlan& Renderer::plan(const Scene& scene, const FrameTargets& targets,
 {
     const FrameConfiguration configuration = configure(scene, targets, input, in_parts);
     HEARTH_ASSERT(targets.allows(configuration));
+    HEARTH_ASSERT(post_support_ != PostSupport::none || isNeutral(input.shading.post));
     return passes_.plan(configuration);
 }
 
@@ -181,9 +238,13 @@ Status Renderer::prepareDeformed()
     }
     HEARTH_TRY(cull_.prepareDeformed(device_, layouts_));
     HEARTH_TRY(page_requests_.prepareDeformed(device_));
-    if (overdraw_)
-        HEARTH_TRY(overdraw_->prepareDeformed(device_));
-    return visibility_.prepareDeformed(device_);
+    for (DrawPasses& draws : draws_)
+    {
+        if (draws.overdraw)
+            HEARTH_TRY(draws.overdraw->prepareDeformed(device_));
+        HEARTH_TRY(draws.visibility.prepareDeformed(device_));
+    }
+    return success();
 }
 
 /// Create the shadow maps of a scene, and the pipelines that draw depths of their format.
@@ -207,20 +268,29 @@ Status Renderer::prepareLightMethod(Scene& scene, LightMethod method)
     for (SceneMaterial& material : scene.materials)
     {
         material.variant.light_list = lightMethodFacts(method).light_list;
-        HEARTH_ASSIGN_OR_RETURN(material.pipelines[static_cast<size_t>(method)],
-                                shading_.prepare(device_, layouts_, material.variant));
+        for (size_t i = 0; i < draws_.size(); ++i)
+        {
+            HEARTH_ASSIGN_OR_RETURN(material.pipelines[static_cast<size_t>(method)][i],
+                                    draws_[i].shading.prepare(device_, layouts_, material.variant));
+        }
     }
     return success();
 }
 
 Status Renderer::prepareOverdraw()
 {
-    if (!overdraw_)
+    for (size_t i = 0; i < draws_.size(); ++i)
     {
-        HEARTH_ASSIGN_OR_RETURN(overdraw_,
-                                BinPass::createOverdraw(device_, layouts_, passes_.shadingPlace()));
+        std::optional<BinPass>& overdraw = draws_[i].overdraw;
+        if (!overdraw)
+        {
+            HEARTH_ASSIGN_OR_RETURN(overdraw,
+                                    BinPass::createOverdraw(device_, layouts_, passes_.shadingPlace(i == 1)));
+        }
+        if (skinning_)
+            HEARTH_TRY(overdraw->prepareDeformed(device_));
     }
-    return skinning_ ? overdraw_->prepareDeformed(device_) : success();
+    return success();
 }
 
 void Renderer::record(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
@@ -412,7 +482,8 @@ void Renderer::recordEarly(VkCommandBuffer commands, const Scene& scene, FrameTa
     {
         const DebugLabel label(device_, commands, "early visibility");
         passes.begin(FrameStep::early_visibility);
-        visibility_.record(device_, commands, layouts_, scene, scene.frame().main, shared::kPhaseEarly);
+        drawPasses(passes).visibility.record(device_, commands, layouts_, scene, scene.frame().main,
+                                             shared::kPhaseEarly);
         passes.end();
     }
     writeTimestamp(device_, commands, input.timestamps, kTimestampEarlyVisibility);
@@ -470,8 +541,8 @@ void Renderer::recordVisible(VkCommandBuffer commands, const Scene& scene, Frame
     {
         const DebugLabel label(device_, commands, "visibility");
         passes.begin(FrameStep::visibility);
-        visibility_.record(device_, commands, layouts_, scene, scene.frame().main,
-                           hasTwoPhases(input) ? shared::kPhaseLate : firstPhase(input));
+        drawPasses(passes).visibility.record(device_, commands, layouts_, scene, scene.frame().main,
+                                             hasTwoPhases(input) ? shared::kPhaseLate : firstPhase(input));
     }
     if (is_open)
         return;
@@ -505,31 +576,73 @@ void Renderer::recordShaded(VkCommandBuffer commands, const Scene& scene, FrameT
     if (!is_open)
         writeTimestamp(device_, commands, input.timestamps, kTimestampMaterialTiles);
     passes.begin(FrameStep::shading);
+    const DrawPasses& draws = drawPasses(passes);
     const bool shows_overdraw = input.shading.debug_view == shared::kViewOverdraw;
     if (!shows_overdraw)
     {
         const DebugLabel label(device_, commands, "material marks");
-        material_marks_.record(device_, commands, layouts_, scene, targets);
+        draws.material_marks.record(device_, commands, layouts_, scene, targets);
     }
     {
         const DebugLabel label(device_, commands, "shading");
+        HEARTH_ASSERT(!shows_overdraw || draws.overdraw);
         if (shows_overdraw)
-            recordOverdraw(commands, scene);
+            recordOverdraw(commands, scene, *draws.overdraw);
         else
-            shading_.record(device_, commands, layouts_, scene, targets, input.shading);
+            draws.shading.record(device_, commands, layouts_, scene, targets, input.shading);
     }
     passes.end();
+    if (targets.hasPost())
+        recordFinal(commands, targets, input.shading, passes);
     targets.setDepthView(passes.has(FrameStep::last_pyramid) ? shared::makeOcclusionView(input.view)
                                                              : shared::OcclusionView{});
     writeTimestamp(device_, commands, input.timestamps, kTimestampShading);
 }
 
-/// Draw the clusters of both phases; the late draws are empty if culling had one phase.
-void Renderer::recordOverdraw(VkCommandBuffer commands, const Scene& scene) const
+/// Record what follows shading, if the frame has a final pass.
+void Renderer::recordFinal(VkCommandBuffer commands, FrameTargets& targets, const ShadingSettings& shading,
+                           PassRecorder& passes) const
 {
-    HEARTH_ASSERT(overdraw_);
+    PostTargets& post = targets.post();
+    post.beginFrame(device_, commands, passes.has(FrameStep::bloom_up), passes.has(FrameStep::exposure));
+    if (passes.has(FrameStep::exposure))
+    {
+        const DebugLabel label(device_, commands, "exposure");
+        passes.begin(FrameStep::exposure);
+        post_->recordExposure(device_, commands, post, *shading.post.automatic_exposure);
+        passes.end();
+    }
+    if (passes.has(FrameStep::bloom_down))
+    {
+        const DebugLabel label(device_, commands, "bloom");
+        for (uint32_t level = 1; level <= shared::kBloomLevels; ++level)
+        {
+            passes.begin(FrameStep::bloom_down);
+            post_->recordDown(device_, commands, post, level);
+        }
+        for (uint32_t level = shared::kBloomLevels - 1; level >= 1 && passes.has(FrameStep::bloom_up);
+             --level)
+        {
+            passes.begin(FrameStep::bloom_up);
+            post_->recordUp(device_, commands, post, level);
+        }
+        passes.end();
+    }
+    if (passes.has(FrameStep::final_pass))
+    {
+        const DebugLabel label(device_, commands, "final pass");
+        passes.begin(FrameStep::final_pass);
+        post_->recordFinal(device_, commands, post, shading.post, targets.outputExtent(),
+                           shading.debug_view != shared::kViewFinal);
+        passes.end();
+    }
+}
+
+/// Draw the clusters of both phases; the late draws are empty if culling had one phase.
+void Renderer::recordOverdraw(VkCommandBuffer commands, const Scene& scene, const BinPass& overdraw) const
+{
     for (const uint32_t phase : {shared::kPhaseEarly, shared::kPhaseLate})
-        overdraw_->record(device_, commands, layouts_, scene, scene.frame().main, phase);
+        overdraw.record(device_, commands, layouts_, scene, scene.frame().main, phase);
 }
 
 } // namespace hearth::gpu

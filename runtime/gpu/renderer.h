@@ -20,6 +20,7 @@
 #include "runtime/gpu/passes/shadow_pass.h"
 #include "runtime/gpu/passes/skinning_pass.h"
 #include "runtime/gpu/passes/word_copy_pass.h"
+#include "runtime/gpu/post/post_pass.h"
 #include "runtime/gpu/scene/instance_motion.h"
 
 #include <memory>
@@ -41,7 +42,7 @@ enum FrameTimestamp : uint32_t
     kTimestampLateCull,
     kTimestampVisibility,
     kTimestampMaterialTiles, ///< includes gathering (GI); no time without both
-    kTimestampShading,
+    kTimestampShading,       ///< includes bloom and the final pass
     kTimestampCount,
 };
 
@@ -69,10 +70,23 @@ struct FrameInput
     VkQueryPool timestamps = VK_NULL_HANDLE; ///< kTimestampCount queries, reset by the frame; or none
 };
 
+/// Support of PostSettings: all others are neutral.
+enum class PostSupport : uint8_t
+{
+    none,
+    in_tile, ///< exposure in stops and photo filter, in the shaders of materials
+    /// Bloom, automatic exposure and outputs of another size as well, for which frames have a final pass:
+    /// all that is shaded has pipelines for those, too. Linear colours in B10G11R11_UFLOAT where the device
+    /// can draw to it and blend, else as `half`.
+    packed,
+    half, ///< the same in R16G16B16A16_SFLOAT: twice the bytes, for callers that read linear colours
+};
+
 struct RendererOptions
 {
     std::optional<FrameWay> way{}; ///< none: chooseFrameWay
     MaterialTest materials = MaterialTest::depth;
+    PostSupport post = PostSupport::none;
 };
 
 class Renderer
@@ -90,6 +104,8 @@ public:
     Result<FrameTargets> createTargets(VkExtent2D extent, const TargetOptions& options = {}) const;
 
     FrameWay way() const { return passes_.way(); }
+    bool hasFinalPasses() const { return passes_.hasFinalPasses(); }
+    PostSupport postSupport() const { return post_support_; }
 
     /// Return the passes of a frame as `record` records them, or the parts of it. Shadow maps are those that
     /// are stale by the view and its moves: what the frame changes else does not count.
@@ -142,6 +158,20 @@ public:
 
 private:
     Renderer() = default;
+
+    /// Passes that draw to the visibility buffer and shade it: their render passes differ by what is shaded.
+    struct DrawPasses
+    {
+        BinPass visibility;
+        std::optional<BinPass> overdraw;
+        MaterialMarksPass material_marks;
+        ShadingPass shading;
+    };
+    Result<DrawPasses> createDrawPasses(bool has_final_pass) const;
+    /// Value of shared::kConstantStored.
+    uint32_t storedColor(bool has_final_pass) const;
+    const DrawPasses& drawPasses(const PassRecorder& passes) const;
+
     Status prepareDeformed();
     Status createShadows(const formats::PackView& pack, const ShadowOptions& options,
                          VkCommandBuffer commands, Scene& scene);
@@ -168,9 +198,12 @@ private:
                       const FrameInput& input, PassRecorder& passes) const;
     void recordPyramid(VkCommandBuffer commands, FrameTargets& targets, const FrameInput& input) const;
     void recordLastPyramid(VkCommandBuffer commands, FrameTargets& targets, PassRecorder& passes) const;
-    void recordOverdraw(VkCommandBuffer commands, const Scene& scene) const;
+    void recordFinal(VkCommandBuffer commands, FrameTargets& targets, const ShadingSettings& shading,
+                     PassRecorder& passes) const;
+    void recordOverdraw(VkCommandBuffer commands, const Scene& scene, const BinPass& overdraw) const;
 
     Device device_;
+    PostSupport post_support_ = PostSupport::none;
     DrawLayouts layouts_;
     FramePasses passes_;
     LightListsPass light_lists_;
@@ -182,11 +215,9 @@ private:
     std::optional<BrickLightPass> brick_light_; ///< set once a scene has bricks
     std::optional<GatherPass> gather_;          ///< set once a scene has bricks
     std::optional<SkinningPass> skinning_;      ///< set once a scene has deformed meshes
-    BinPass visibility_;
-    std::optional<BinPass> overdraw_;
     MaterialTilesPass material_tiles_;
-    MaterialMarksPass material_marks_;
-    ShadingPass shading_;
+    std::vector<DrawPasses> draws_; ///< [1] of frames with a final pass
+    std::optional<PostPass> post_;  ///< with final passes
 };
 
 } // namespace hearth::gpu

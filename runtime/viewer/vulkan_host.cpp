@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/vulkan_host.h"
 
+#include "runtime/gpu/vulkan/image_barrier.h"
+
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
@@ -412,6 +414,30 @@ Result<std::vector<std::byte>> VulkanHost::read(const gpu::Device& device, const
             return success();
         }));
     return std::vector<std::byte>(copy.mapped, copy.mapped + size);
+}
+
+Result<std::vector<std::byte>> VulkanHost::readSampled(const gpu::Device& device, const gpu::Image& image,
+                                                       uint32_t texel_bytes)
+{
+    const auto change = [&](VkImageLayout from, VkImageLayout to, VkPipelineStageFlags from_stage,
+                            VkPipelineStageFlags to_stage)
+    {
+        return run(
+            [&](VkCommandBuffer commands)
+            {
+                gpu::transition(device, commands, image, from, to, 0,
+                                VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_SHADER_READ_BIT, from_stage,
+                                to_stage | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT);
+                return success();
+            });
+    };
+    constexpr VkImageLayout kSampled = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
+    constexpr VkImageLayout kCopied = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
+    HEARTH_TRY(
+        change(kSampled, kCopied, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT));
+    HEARTH_ASSIGN_OR_RETURN(std::vector<std::byte> texels, read(device, image, texel_bytes));
+    HEARTH_TRY(change(kCopied, kSampled, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT));
+    return texels;
 }
 
 Status VulkanHost::printMessages() const

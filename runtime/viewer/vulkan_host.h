@@ -58,6 +58,10 @@ public:
     Result<std::vector<std::byte>> read(const gpu::Device& device, const gpu::Image& image,
                                         uint32_t texel_bytes);
 
+    /// Read an image in layout SHADER_READ_ONLY_OPTIMAL, which it keeps, in the same way.
+    Result<std::vector<std::byte>> readSampled(const gpu::Device& device, const gpu::Image& image,
+                                               uint32_t texel_bytes);
+
     /// Read a layer of a D32 array in layout SHADER_READ_ONLY_OPTIMAL, which it keeps, with usage
     /// TRANSFER_SRC; rows from top to bottom.
     Result<std::vector<float>> readDepth(const gpu::Device& device, const gpu::Image& image, uint32_t layer);

@@ -37,14 +37,6 @@ size_t testOption(const char* variable, std::initializer_list<std::string_view> 
     return static_cast<size_t>(found - names.begin());
 }
 
-/// Options by which the tests run: HEARTH_TEST_MATERIALS=depth|id, HEARTH_TEST_FRAME=merged|separate|one-set.
-gpu::RendererOptions rendererOptions()
-{
-    return {
-        .way = static_cast<gpu::FrameWay>(testOption("HEARTH_TEST_FRAME", {"merged", "separate", "one-set"})),
-        .materials = static_cast<gpu::MaterialTest>(testOption("HEARTH_TEST_MATERIALS", {"depth", "id"}))};
-}
-
 std::vector<uint32_t> toWords(const std::vector<std::byte>& bytes)
 {
     std::vector<uint32_t> words(bytes.size() / 4);
@@ -57,6 +49,13 @@ std::vector<uint32_t> toWords(const std::vector<std::byte>& bytes)
 std::unique_ptr<viewer::VulkanHost> GpuTest::host_;
 std::unique_ptr<gpu::Renderer> GpuTest::renderer_;
 std::string GpuTest::no_device_;
+
+gpu::RendererOptions testRendererOptions()
+{
+    return {
+        .way = static_cast<gpu::FrameWay>(testOption("HEARTH_TEST_FRAME", {"merged", "separate", "one-set"})),
+        .materials = static_cast<gpu::MaterialTest>(testOption("HEARTH_TEST_MATERIALS", {"depth", "id"}))};
+}
 
 std::vector<std::array<uint32_t, 3>> Image::seen() const
 {
@@ -82,7 +81,7 @@ void GpuTest::SetUpTestSuite()
         return;
     }
     host_ = std::move(*host);
-    auto renderer = gpu::Renderer::create(host_->description(), rendererOptions());
+    auto renderer = gpu::Renderer::create(host_->description(), testRendererOptions());
     ASSERT_TRUE(renderer.ok()) << formatMessage(renderer.error());
     renderer_ = std::move(*renderer);
 }

@@ -55,6 +55,9 @@ struct DrawOptions
     gpu::LightLister light_lister = gpu::LightLister::gpu;
 };
 
+/// Options by which the tests run: HEARTH_TEST_MATERIALS=depth|id, HEARTH_TEST_FRAME=merged|separate|one-set.
+gpu::RendererOptions testRendererOptions();
+
 /// Skips tests without a device. Fails if the validation layers report anything in any test.
 class GpuTest : public testing::Test
 {

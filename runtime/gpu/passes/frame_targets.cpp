@@ -6,6 +6,7 @@
 #include "runtime/frame/frame.h"
 #include "runtime/gpu/frame/frame_plan.h"
 
+#include <algorithm>
 #include <cstring>
 #include <set>
 #include <string>
@@ -54,13 +55,22 @@ Result<FrameTargets> FrameTargets::create(const Device& device, const FramePasse
                                           const DrawLayouts& layouts, VkExtent2D extent,
                                           const TargetOptions& options)
 {
-    if (extent.width > device.limits.maxFramebufferWidth ||
-        extent.height > device.limits.maxFramebufferHeight ||
-        std::max(extent.width, extent.height) > device.limits.maxImageDimension2D)
-        return Error{Issue::device_limit, "", "",
-                     "the device cannot render " + std::to_string(extent.width) + "x" +
-                         std::to_string(extent.height) + " pixels"};
+    for (const VkExtent2D size : {extent, options.output})
+        if (size.width > device.limits.maxFramebufferWidth ||
+            size.height > device.limits.maxFramebufferHeight ||
+            std::max(size.width, size.height) > device.limits.maxImageDimension2D)
+            return Error{Issue::device_limit, "", "",
+                         "the device cannot render " + std::to_string(size.width) + "x" +
+                             std::to_string(size.height) + " pixels"};
     FrameTargets t(device, extent, options);
+    t.options_.has_final_pass =
+        options.has_final_pass || options.may_bloom || alwaysHasFinalPass(options, extent);
+    HEARTH_ASSERT(passes.hasFinalPasses() || !t.options_.has_final_pass);
+    if (t.options_.has_final_pass)
+    {
+        HEARTH_ASSIGN_OR_RETURN(t.post_, PostTargets::create(device, passes, layouts, t.arena_, extent,
+                                                             options.may_bloom, options.keeps_radiance));
+    }
     HEARTH_TRY(t.createImages(device, passes));
     HEARTH_TRY(t.createFramebuffers(device, passes));
     HEARTH_TRY(t.createPyramids(device));
@@ -72,6 +82,10 @@ Result<FrameTargets> FrameTargets::create(const Device& device, const FramePasse
 bool FrameTargets::allows(const FrameConfiguration& c) const
 {
     const bool splits = c.material_tiles || c.gathers_light || c.in_parts;
+    if (c.has_final_pass ? !options_.has_final_pass : alwaysHasFinalPass(options_, extent_))
+        return false;
+    if ((c.blooms || c.adapts_exposure) && !options_.may_bloom)
+        return false;
     return c.occlusion <= options_.occlusion && (!c.keeps_visibility || options_.keeps_visibility) &&
            (!c.gathers_light || options_.gathers_light) && (!splits || options_.may_split);
 }
@@ -80,12 +94,14 @@ bool FrameTargets::allows(const FrameConfiguration& c) const
 Status FrameTargets::createImages(const Device& device, const FramePasses& passes)
 {
     std::set<FrameResource> leave_tile;
-    for (const FrameConfiguration& c : allConfigurations(passes.way(), passes.materials()))
+    for (const FrameConfiguration& c :
+         allConfigurations(passes.way(), passes.materials(), passes.hasFinalPasses()))
         if (allows(c))
             for (const Pass& pass : passes.plan(c).description.passes)
                 for (const AttachmentUse& use : pass.attachments)
                     if (use.store || use.load == LoadOperation::load)
                         leave_tile.insert(use.resource);
+    VkExtent2D extent = extent_;
     const auto create = [&](Image& image, FrameResource resource, VkFormat format, VkImageUsageFlags usage,
                             VkImageUsageFlags usage_in_memory, VkImageAspectFlags aspect) -> Status
     {
@@ -93,7 +109,7 @@ Status FrameTargets::createImages(const Device& device, const FramePasses& passe
         HEARTH_ASSIGN_OR_RETURN(
             image, arena_.createImage(
                        {.format = format,
-                        .extent = extent_,
+                        .extent = extent,
                         .usage = usage | (on_tile ? VkImageUsageFlags{VK_IMAGE_USAGE_TRANSIENT_ATTACHMENT_BIT}
                                                   : usage_in_memory),
                         .aspect = aspect,
@@ -114,38 +130,81 @@ Status FrameTargets::createImages(const Device& device, const FramePasses& passe
     {
         HEARTH_ASSIGN_OR_RETURN(sampled_depth_, createDepthView(device, depth_));
     }
+    if (options_.output.width != 0)
+        extent = options_.output;
     return create(color_, FrameResource::color, kColorFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
                   VK_IMAGE_USAGE_TRANSFER_SRC_BIT, VK_IMAGE_ASPECT_COLOR_BIT);
 }
 
-VkImageView FrameTargets::attachmentView(FrameResource resource) const
+const Image& FrameTargets::attachmentImage(FrameResource resource, uint32_t exposure) const
 {
-    return (resource == FrameResource::visibility ? visibility_
-            : resource == FrameResource::depth    ? depth_
-                                                  : color_)
-        .view.get();
+    static const Image kNone{};
+    switch (resource)
+    {
+    case FrameResource::visibility:
+        return visibility_;
+    case FrameResource::depth:
+        return depth_;
+    case FrameResource::color:
+        return color_;
+    case FrameResource::exposure:
+        return post_ ? post_->exposureImage(exposure) : kNone;
+    default:
+        return post_ ? post_->image(resource) : kNone;
+    }
 }
 
+VkFramebuffer FrameTargets::framebuffer(uint32_t family) const
+{
+    const FamilyFramebuffer& framebuffer = framebuffers_[family];
+    const bool is_other =
+        post_ && framebuffer.handles[1].get() != VK_NULL_HANDLE && post_->exposureNumber() == 1;
+    return framebuffer.handles[is_other ? 1 : 0].get();
+}
+
+/// Create no framebuffer of attachments that no frame uses, or not together.
 Status FrameTargets::createFramebuffers(const Device& device, const FramePasses& passes)
 {
     for (const PassFamily& family : passes.families())
     {
-        std::vector<VkImageView> views;
-        for (const FrameResource resource : family.attachments)
-            views.push_back(attachmentView(resource));
-        VkFramebufferCreateInfo info{};
-        info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
-        info.renderPass = family.any_pass;
-        info.attachmentCount = static_cast<uint32_t>(views.size());
-        info.pAttachments = views.data();
-        info.width = extent_.width;
-        info.height = extent_.height;
-        info.layers = 1;
-        VkFramebuffer framebuffer;
-        HEARTH_TRY_VK(device.vk.vkCreateFramebuffer(device.handle, &info, device.allocator, &framebuffer),
-                      "create a framebuffer");
-        framebuffers_.emplace_back(device, framebuffer);
+        FamilyFramebuffer& framebuffer = framebuffers_.emplace_back();
+        framebuffer.extent = attachmentImage(family.attachments.front(), 0).extent;
+        const bool is_used = std::all_of(family.attachments.begin(), family.attachments.end(),
+                                         [&](FrameResource resource)
+                                         {
+                                             const Image& image = attachmentImage(resource, 0);
+                                             return image.view.get() != VK_NULL_HANDLE &&
+                                                    image.extent.width == framebuffer.extent.width &&
+                                                    image.extent.height == framebuffer.extent.height;
+                                         });
+        if (!is_used)
+            continue;
+        HEARTH_TRY(createFramebuffer(device, family, 0, framebuffer.handles[0]));
+        if (family.attachments.front() == FrameResource::exposure)
+            HEARTH_TRY(createFramebuffer(device, family, 1, framebuffer.handles[1]));
     }
+    return success();
+}
+
+Status FrameTargets::createFramebuffer(const Device& device, const PassFamily& family, uint32_t exposure,
+                                       UniqueFramebuffer& framebuffer)
+{
+    std::vector<VkImageView> views;
+    for (const FrameResource resource : family.attachments)
+        views.push_back(attachmentImage(resource, exposure).view.get());
+    const VkExtent2D extent = attachmentImage(family.attachments.front(), exposure).extent;
+    VkFramebufferCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
+    info.renderPass = family.any_pass;
+    info.attachmentCount = static_cast<uint32_t>(views.size());
+    info.pAttachments = views.data();
+    info.width = extent.width;
+    info.height = extent.height;
+    info.layers = 1;
+    VkFramebuffer handle;
+    HEARTH_TRY_VK(device.vk.vkCreateFramebuffer(device.handle, &info, device.allocator, &handle),
+                  "create a framebuffer");
+    framebuffer = UniqueFramebuffer(device, handle);
     return success();
 }
 

@@ -6,6 +6,7 @@
 #include "formats/gpu_shared/records.h"
 #include "runtime/gpu/frame/frame_passes.h"
 #include "runtime/gpu/passes/gather_targets.h"
+#include "runtime/gpu/post/post_targets.h"
 #include "runtime/gpu/scene/draw_layouts.h"
 #include "runtime/gpu/scene/joined_sets.h"
 #include "runtime/gpu/scene/scene_frames.h"
@@ -27,10 +28,28 @@ struct TargetOptions
     /// Frames may be split between visibility and shading: material tiles, gathered light, parts.
     bool may_split = true;
     bool counts_missing = false; ///< Renderer::recordMissing may follow a frame: takes a second pyramid
+    /// Frames may have a final pass, by a renderer that has them (RendererOptions::post). With an output
+    /// of another size, or radiance that is kept, all of them have one.
+    bool has_final_pass = false;
+    bool may_bloom = false; ///< and bloom or automatic exposure
+    /// Size of `color`, to which the final pass enlarges or reduces the frame; 0 x 0: the frame's.
+    VkExtent2D output{};
+    /// `radiance` can be copied after a frame.
+    bool keeps_radiance = false;
 };
 
+/// True if every frame with targets of this size has a final pass.
+inline bool alwaysHasFinalPass(const TargetOptions& options, VkExtent2D extent)
+{
+    const bool is_resized = options.output.width != 0 &&
+                            (options.output.width != extent.width || options.output.height != extent.height);
+    return is_resized || options.keeps_radiance;
+}
+
 /// Render targets of one camera. After a frame `color` is in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, visible to
-/// transfers; so is `visibility` if it is kept. Before a frame their content and layout do not matter.
+/// transfers; so is `visibility` if it is kept. `radiance`, if it is kept, is in
+/// VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, visible to fragments: a copy waits for those by a barrier of the
+/// caller's. Before a frame their content and layout do not matter.
 ///
 /// The pyramid is a guess: whatever it holds, the rendered frame is the same. The better the guess, the less
 /// is drawn.
@@ -42,15 +61,23 @@ public:
                                        const DrawLayouts& layouts, VkExtent2D extent,
                                        const TargetOptions& options);
 
+    /// Rendering size.
     VkExtent2D extent() const { return extent_; }
+    /// Size of color().
+    VkExtent2D outputExtent() const { return color_.extent; }
     const TargetOptions& options() const { return options_; }
     /// True if a frame of the configuration uses nothing that the options exclude.
     bool allows(const FrameConfiguration& configuration) const;
     const Image& visibility() const { return visibility_; }
     const Image& depth() const { return depth_; }
     const Image& color() const { return color_; }
-    /// Framebuffer of a PassFamily.
-    VkFramebuffer framebuffer(uint32_t family) const { return framebuffers_[family].get(); }
+    /// Images of final passes; with TargetOptions::has_final_pass.
+    PostTargets& post() { return *post_; }
+    const PostTargets& post() const { return *post_; }
+    bool hasPost() const { return post_.has_value(); }
+    /// Framebuffer of a PassFamily, of the frame begun last.
+    VkFramebuffer framebuffer(uint32_t family) const;
+    VkExtent2D framebufferExtent(uint32_t family) const { return framebuffers_[family].extent; }
     AttachmentSet attachments() const { return {set_, identity_}; }
     VkDeviceSize allocatedBytes() const { return arena_.allocatedBytes(); }
     /// Bytes of attachments that exist on the tile only, where the device has lazily allocated memory;
@@ -101,7 +128,10 @@ private:
     }
     Status createImages(const Device& device, const FramePasses& passes);
     Status createFramebuffers(const Device& device, const FramePasses& passes);
-    VkImageView attachmentView(FrameResource resource) const;
+    Status createFramebuffer(const Device& device, const PassFamily& family, uint32_t exposure,
+                             UniqueFramebuffer& framebuffer);
+    /// Image of an attachment; its view is null if no frame uses it.
+    const Image& attachmentImage(FrameResource resource, uint32_t exposure) const;
     Status createPyramids(const Device& device);
     uint32_t pyramidCount() const { return options_.counts_missing ? 2 : 1; }
     uint32_t nextPyramid() const { return options_.counts_missing ? 1 - pyramid_ : pyramid_; }
@@ -117,7 +147,13 @@ private:
     Image color_;
     // texels in place of images that no frame reads: some drivers look at all descriptors of a set
     Image no_depth_, no_light_;
-    std::vector<UniqueFramebuffer> framebuffers_; ///< [family]
+    std::optional<PostTargets> post_; ///< with TargetOptions::has_final_pass
+    struct FamilyFramebuffer
+    {
+        VkExtent2D extent{};
+        UniqueFramebuffer handles[2]; ///< the second for the other image of the exposure
+    };
+    std::vector<FamilyFramebuffer> framebuffers_; ///< [family]; empty if no frame uses it
     Buffer pyramids_[2];                          ///< the second with TargetOptions::counts_missing
     uint32_t pyramid_ = 0;                        ///< that culling tests
     Buffer tile_materials_;

@@ -11,12 +11,12 @@ namespace hearth::gpu
 {
 
 Result<MaterialMarksPass> MaterialMarksPass::create(const Device& device, const DrawLayouts& layouts,
-                                                    const FramePasses& passes)
+                                                    const FramePasses& passes, bool has_final_pass)
 {
     MaterialMarksPass pass;
     pass.materials_ = passes.materials();
     const bool by_depth = pass.materials_ == MaterialTest::depth;
-    const DrawPlace place = passes.shadingPlace();
+    const DrawPlace place = passes.shadingPlace(has_final_pass);
     const shaders::Variant reading = shaderVariant(passes.way());
     HEARTH_ASSIGN_OR_RETURN(
         pass.pipeline_,

@@ -19,11 +19,12 @@ bool hasStep(const Pass& pass, FrameStep step)
     return std::find(pass.steps.begin(), pass.steps.end(), step) != pass.steps.end();
 }
 
-/// True if a frame has the step as often as it draws shadow maps, or rounds of them.
+/// True if a frame has the step as often as it draws shadow maps, or rounds of them, or levels of bloom.
 bool isRepeated(FrameStep step)
 {
     return step == FrameStep::shadow_cull || step == FrameStep::shadow_map ||
-           step == FrameStep::shadow_copy || step == FrameStep::moving_shadow_map;
+           step == FrameStep::shadow_copy || step == FrameStep::moving_shadow_map ||
+           step == FrameStep::bloom_down || step == FrameStep::bloom_up;
 }
 
 constexpr size_t kMaxAttachments = 3;
@@ -51,7 +52,8 @@ void PassRecorder::begin(FrameStep step)
         beginPass(number);
         const PlannedPass& planned = plan_.render_passes[number];
         if (open_->kind == PassKind::render)
-            beginRenderPass(planned.render_pass, targets_.framebuffer(planned.family), targets_.extent());
+            beginRenderPass(planned.render_pass, targets_.framebuffer(planned.family),
+                            targets_.framebufferExtent(planned.family));
     }
     while (open_->kind == PassKind::render &&
            (open_->subpasses[subpass_].step != step || open_->subpasses[subpass_].is_empty))

@@ -7,6 +7,7 @@
 #include "runtime/gpu/scene/scene_shadows.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace hearth::gpu
 {
@@ -19,11 +20,17 @@ shared::ShadingPush shadingPush(const ShadingSettings& view, uint32_t material, 
 {
     // views of all surfaces are drawn at the depth of the sky
     const uint32_t level = material == shared::kEverySurface ? 0 : material;
+    const PhotoFilter& filter = view.post.photo_filter;
     return {.depth = static_cast<float>(level) * shared::kMaterialDepthStep,
             .material = material,
             .debug_view = view.debug_view,
             .depth_scale = view.depth_scale,
-            .sky_occlusion = sky_occlusion};
+            .sky_occlusion = sky_occlusion,
+            .exposure = std::exp2(view.post.exposure_stops),
+            .filter_red = filter.color.x,
+            .filter_green = filter.color.y,
+            .filter_blue = filter.color.z,
+            .filter_density = filter.density};
 }
 
 bool showsDeformed(const Scene& scene)
@@ -99,14 +106,16 @@ void ShadingPass::setStencil(const Device& device, VkCommandBuffer commands, uin
 }
 
 Result<ShadingPass> ShadingPass::create(const Device& device, const DrawLayouts& layouts,
-                                        const FramePasses& passes)
+                                        const FramePasses& passes, bool has_final_pass, uint32_t stored)
 {
     ShadingPass pass;
-    pass.place_ = passes.shadingPlace();
+    pass.has_final_pass_ = has_final_pass;
+    pass.place_ = passes.shadingPlace(has_final_pass);
     pass.way_ = passes.way();
     const shaders::Variant reading = shaderVariant(pass.way_);
     pass.material_test_ = passes.materials();
     pass.view_constants_[shared::kConstantComparesMaterial] = pass.material_test_ == MaterialTest::id ? 1 : 0;
+    pass.view_constants_[shared::kConstantStored] = stored;
     GraphicsDescription sky = pass.describe(shaders::sky_frag[reading], layouts.shading.get());
     sky.constants = pass.view_constants_;
     HEARTH_ASSIGN_OR_RETURN(pass.sky_, createGraphicsPipeline(device, sky));
@@ -283,7 +292,8 @@ void ShadingPass::recordMaterials(const Device& device, VkCommandBuffer commands
     for (uint32_t row = 0; row < scene.materials.size(); ++row)
     {
         const SceneMaterial& material = scene.materials[row];
-        const ShadingPipelines& pipelines = material.pipelines[static_cast<size_t>(view.light_method)];
+        const ShadingPipelines& pipelines =
+            material.pipelines[static_cast<size_t>(view.light_method)][has_final_pass_ ? 1 : 0];
         device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
                                     view.debug_view != shared::kViewFinal ? pipelines.debug_view_pipeline
                                     : usesGi(scene, view)                 ? pipelines.final_gi_pipeline

@@ -6,6 +6,7 @@
 #include "formats/gpu_shared/ambient_occlusion.h"
 #include "formats/gpu_shared/shading.h"
 #include "runtime/gpu/passes/frame_targets.h"
+#include "runtime/gpu/post/post_settings.h"
 #include "runtime/gpu/scene/scene.h"
 
 #include <map>
@@ -37,7 +38,20 @@ struct ShadingSettings
     bool gi = true;
     LightMethod light_method = LightMethod::practical; ///< prepared: Renderer::prepareLightMethod
     LightLister light_lister = LightLister::gpu;
+    PostSettings post{}; ///< of the final view
 };
+
+/// True if the frame draws levels of bloom.
+inline bool usesBloom(const ShadingSettings& view)
+{
+    return view.debug_view == shared::kViewFinal && view.post.bloom.strength > 0;
+}
+
+/// True if the exposure follows the light of the frames before.
+inline bool adaptsExposure(const ShadingSettings& view)
+{
+    return view.debug_view == shared::kViewFinal && view.post.automatic_exposure.has_value();
+}
 
 /// True if the frame lists material tiles before shading.
 inline bool shadesTiles(const Scene& scene, ShadedArea area)
@@ -56,8 +70,10 @@ inline bool usesGi(const Scene& scene, const ShadingSettings& view)
 class ShadingPass
 {
 public:
+    /// has_final_pass  shades the frames that have one
+    /// stored          value of shared::kConstantStored
     static Result<ShadingPass> create(const Device& device, const DrawLayouts& layouts,
-                                      const FramePasses& passes);
+                                      const FramePasses& passes, bool has_final_pass, uint32_t stored);
 
     /// Return the pipelines of a material; creates each variant once and caches it. Call before frames are
     /// recorded.
@@ -98,6 +114,7 @@ private:
 
     DrawPlace place_{};
     FrameWay way_ = FrameWay::merged;
+    bool has_final_pass_ = false;
     MaterialTest material_test_ = MaterialTest::depth;
     DrawConstants view_constants_{}; ///< of pipelines that reconstruct no surface
     UniquePipeline sky_;

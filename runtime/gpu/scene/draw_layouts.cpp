@@ -95,6 +95,11 @@ Status DrawLayouts::createFrameSets(const Device& device)
     const SetBinding light_bindings[] = {storageBinding(shared::kLightsBuffer, kComputeStage),
                                          storageBinding(shared::kLightsInView, kComputeStage)};
     HEARTH_ASSIGN_OR_RETURN(lights, createSetLayout(device, light_bindings));
+
+    const SetBinding post_bindings[] = {textureBinding(shared::kPostRadiance, kFragmentStage),
+                                        textureBinding(shared::kPostBloom, kFragmentStage),
+                                        textureBinding(shared::kPostExposure, kFragmentStage)};
+    HEARTH_ASSIGN_OR_RETURN(post, createSetLayout(device, post_bindings));
     return success();
 }
 

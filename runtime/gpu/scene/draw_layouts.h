@@ -65,6 +65,7 @@ struct DrawLayouts
     UniqueSetLayout fresh_light;      ///< shared::kFreshLight*
     UniqueSetLayout gather_point;     ///< shared::kGatherPoint*
     UniqueSetLayout gather;           ///< shared::kGatherView to kGatherTexels
+    UniqueSetLayout post;             ///< shared::kPost*
     UniquePipelineLayout visibility;  ///< scene, material, bins; shared::BinPush
     UniquePipelineLayout shading;     ///< scene, material, attachments; shared::ShadingPush, as the next two
     UniquePipelineLayout clusters;    ///< cluster_view, attachments: debug views of clusters

@@ -61,6 +61,8 @@ struct Device
     /// Compares with depth images of these formats may be bilinear, which Vulkan does not require.
     bool filters_d16 = false;
     bool filters_d32 = false;
+    /// Images with B10G11R11_UFLOAT can be drawn to and blended, which Vulkan does not require.
+    bool draws_packed_floats = false;
     DeviceIdentity identity{};
     VkPhysicalDeviceLimits limits{};
     VkPhysicalDeviceMemoryProperties memory{};

@@ -31,7 +31,7 @@ constexpr RequiredLimit kLimits[] = {
     {HEARTH_LIMIT(maxDescriptorSetSamplers), 15, "samplers in a pipeline", "shading"},
     {HEARTH_LIMIT(maxDescriptorSetSampledImages), 15, "sampled images in a pipeline", "shading"},
     {HEARTH_LIMIT(maxBoundDescriptorSets), 3, "descriptor sets at once", "drawing and shading"},
-    {HEARTH_LIMIT(maxPushConstantsSize), 20, "bytes of push constants", "shading"},
+    {HEARTH_LIMIT(maxPushConstantsSize), 40, "bytes of push constants", "shading, final pass"},
     {HEARTH_LIMIT(maxUniformBufferRange), 7184, "bytes in a uniform buffer", "shadow maps of the lights"},
     {HEARTH_LIMIT(maxStorageBufferRange), uint64_t{128} << 20, "bytes in a storage buffer",
      "a slice of geometry"},

@@ -12,7 +12,7 @@
 #include "runtime/shaders/shade/light_irradiance.glsl"
 #include "runtime/shaders/shade/light_list.glsl"
 #include "runtime/shaders/shade/sky.glsl"
-#include "runtime/shaders/shade/tonemap.glsl"
+#include "runtime/shaders/shade/shaded_color.glsl"
 #include "runtime/shaders/shade/sky_occlusion.glsl"
 
 layout(constant_id = kConstantUnlit) const bool kUnlit = false;
@@ -54,10 +54,10 @@ vec3 lit(SurfacePoint point, SurfaceUvs uvs, mediump vec3 base)
     return radiance + belowCoat(layers) * lighting.exposure * emission;
 }
 
-// Display-linear colour. Unlit colours are display colours: no light, no tone mapping.
+// Colour to write: shaded_color.glsl. Unlit colours are display colours: no light, no tone mapping.
 vec3 displayColor(SurfacePoint point, SurfaceUvs uvs)
 {
     mediump vec3 factor = material.base_color.rgb;
     mediump vec3 base = factor * point.color * sampleSurface(uvs, kTextureBaseColor, base_color_texture).rgb;
-    return kUnlit ? base : toneMap(lit(point, uvs, base));
+    return kUnlit ? shadedUnlit(base) : shadedColor(lit(point, uvs, base));
 }

@@ -8,7 +8,7 @@
 #include "formats/gpu_shared/shading.h"
 #include "formats/gpu_shared/specialization.h"
 #include "runtime/shaders/scene/visibility_input.glsl"
-#include "runtime/shaders/shade/tonemap.glsl"
+#include "runtime/shaders/shade/shaded_color.glsl"
 
 layout(set = kSetScene, binding = kSceneFrame, std140) uniform Frame { FrameView view; };
 layout(set = kSetScene, binding = kSceneLighting, std140) readonly buffer LightingBlock { Lighting lighting; };
@@ -27,6 +27,6 @@ void main()
     vec3 x = view.clip_x.xyz;
     vec3 y = view.clip_y.xyz;
     vec3 direction = normalize(view.clip_w.xyz + x * (ndc.x / dot(x, x)) + y * (ndc.y / dot(y, y)));
-    vec3 color = push.debug_view == kViewFinal ? toneMap(skyRadiance(sceneSky(), direction)) : linearFromSrgb(vec3(0.08));
+    vec3 color = push.debug_view == kViewFinal ? shadedColor(skyRadiance(sceneSky(), direction)) : linearFromSrgb(vec3(0.08));
     out_color = vec4(color, 1.0);
 }

@@ -129,7 +129,7 @@ struct ForwardPush
 };
 
 /// Create a layout with the sets of the visibility pass. The fragment stage includes the shading code, whose
-/// block of push constants is larger and is not read without sky visibility.
+/// block of push constants is larger; it reads the post settings alone.
 gpu::UniquePipelineLayout createForwardLayout(const gpu::Device& device, const gpu::DrawLayouts& layouts)
 {
     const gpu::NumberedSet sets[] = {{shared::kSetScene, layouts.scene.get()},
@@ -202,10 +202,12 @@ void ForwardRenderer::drawMaterial(VkCommandBuffer commands, const gpu::Scene& s
     const VkPipelineLayout layout = forward_layout_.get();
     const VkDescriptorSet sets[] = {scene.frame().main.draw_set, scene.materials[row].set,
                                     scene.frame().main.bins_set};
+    const shared::ShadingPush neutral{.exposure = 1};
     const ForwardPush push{bin, row + 1};
     device_.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
     device_.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, shared::kSetScene,
                                        3, sets, 0, nullptr);
+    device_.vk.vkCmdPushConstants(commands, layout, gpu::kShadingPushStages, 0, sizeof(neutral), &neutral);
     device_.vk.vkCmdPushConstants(commands, layout, gpu::kShadingPushStages, 0, sizeof(push), &push);
     device_.vk.vkCmdDrawIndirect(commands, scene.frame().main.bin_draws.handle.get(),
                                  bin * sizeof(shared::BinDraw), 1, sizeof(shared::BinDraw));

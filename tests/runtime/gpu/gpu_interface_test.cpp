@@ -47,7 +47,8 @@ std::map<std::string, uint32_t> constantIds()
             {"kSkyVisibility", shared::kConstantSkyVisibility},
             {"kLayers", shared::kConstantLayers},
             {"kComparesMaterial", shared::kConstantComparesMaterial},
-            {"kFiltersShadows", shared::kConstantFiltersShadows}};
+            {"kFiltersShadows", shared::kConstantFiltersShadows},
+            {"kStored", shared::kConstantStored}};
 }
 
 /// Not a GpuTest: that creates pipelines, and a driver may crash where a shader and a layout differ.
@@ -65,7 +66,7 @@ protected:
         const gpu::DeviceDescription recording = recordPipelines(host_->description());
         for (const gpu::FrameWay way : gpu::kFrameWays)
         {
-            auto created = gpu::Renderer::create(recording, {.way = way});
+            auto created = gpu::Renderer::create(recording, {.way = way, .post = gpu::PostSupport::packed});
             ASSERT_TRUE(created.ok());
             gpu::Renderer& recorded = **created;
             uploadRocks(recorded);

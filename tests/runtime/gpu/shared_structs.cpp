@@ -86,7 +86,13 @@ std::vector<SharedStruct> pushStructs()
         HEARTH_STRUCT(TilesPush, width, height, draw_count),
         HEARTH_STRUCT(LightCellsPush, writes),
         HEARTH_STRUCT(BinPush, bin, light_row, map_index, facing),
-        HEARTH_STRUCT(ShadingPush, depth, material, debug_view, depth_scale, sky_occlusion),
+        HEARTH_STRUCT(ShadingPush, depth, material, debug_view, depth_scale, sky_occlusion, exposure,
+                      filter_red, filter_green, filter_blue, filter_density),
+        HEARTH_STRUCT(BloomDownPush, dims_fireflies),
+        HEARTH_STRUCT(BloomUpPush, share),
+        HEARTH_STRUCT(ExposurePush, key, share, has_light, has_history),
+        HEARTH_STRUCT(FinalPush, width, height, exposure, filter_red, filter_green, filter_blue,
+                      filter_density, bloom_strength, adds_bloom, shows_data),
     };
 }
 

@@ -25,7 +25,7 @@ using testing::Not;
 const std::map<std::string, double>& relaxedShares()
 {
     static const std::map<std::string, double> shares = {{"shading_frag", 29},
-                                                         {"shading_shadowed_frag", 27},
+                                                         {"shading_shadowed_frag", 26},
                                                          {"shading_gi_frag", 15},
                                                          {"shading_shadowed_gi_frag", 13}};
     return shares;
@@ -40,12 +40,13 @@ std::string baseName(std::string name)
     return name;
 }
 
-/// Debug views and the background shade, too; the rest decides what is drawn where, or must be the CPU's to
-/// the bit.
+/// Debug views, the background and final passes shade, too; the rest decides what is drawn where, or must be
+/// the CPU's to the bit.
 bool shades(const std::string& shader)
 {
     const std::string name = baseName(shader);
-    return relaxedShares().contains(name) || name.starts_with("view_") || name == "sky_frag";
+    return relaxedShares().contains(name) || name.starts_with("view_") || name.starts_with("final_") ||
+           name == "sky_frag";
 }
 
 double relaxedShare(std::span<const uint32_t> words)

@@ -1,0 +1,13 @@
+// Same as final.frag, with automatic exposure.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "runtime/shaders/post/final.glsl"
+
+layout(set = kSetPost, binding = kPostExposure) uniform sampler2D exposure;
+
+void main()
+{
+    vec3 color = textureLod(radiance, imagePosition(), 0.0).rgb;
+    out_color = finished(color, push.exposure * exp2(texelFetch(exposure, ivec2(0), 0).r));
+}
