@@ -7,6 +7,8 @@
 #include "runtime/viewer/text.h"
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 
 namespace hearth::viewer
 {
@@ -48,6 +50,19 @@ constexpr std::string_view kDrawHelp =
     "                          Example: texels=2048,bias=4\n"
     "      --shadow-sphere X,Y,Z,RADIUS[,LIGHT]\n"
     "                          finer shadows there, of all lights or of one; may be given several times\n"
+    "      --exposure STOPS|auto[,STOPS]\n"
+    "                          brightness in stops, 1 is twice as bright; auto: follows the light of the "
+    "image\n"
+    "      --bloom STRENGTH[,add]\n"
+    "                          glow of bright parts: the share of the light that spreads, 0.05 shows; add: "
+    "without\n"
+    "                          taking it away\n"
+    "      --photo-filter RRGGBB[,DENSITY]\n"
+    "                          coloured glass before the lens, as bright: colour in hexadecimal sRGB, "
+    "density "
+    "0 to 1\n"
+    "                          (default 0.25). Example: ec8a00 is warm\n"
+    "      --render-size WxH   draw so many pixels, and enlarge or reduce them to --size\n"
     "      --shaded-area AREA  where each material is shaded: frame, tiles (64x64 pixels where it is "
     "seen), "
     "or\n"
@@ -168,7 +183,7 @@ Status parseChoice(const std::string& option, std::span<const Named<T>> choices,
     return success();
 }
 
-Status parseSize(std::string_view text, DrawOptions& options)
+Result<VkExtent2D> parseSize(const std::string& option, std::string_view text)
 {
     constexpr uint32_t kMaxSide = 16384;
     const auto parts = splitText(text, 'x');
@@ -177,13 +192,78 @@ Status parseSize(std::string_view text, DrawOptions& options)
         const auto width = parseNumber<uint32_t>(parts[0]);
         const auto height = parseNumber<uint32_t>(parts[1]);
         if (width && height && *width >= 1 && *height >= 1 && *width <= kMaxSide && *height <= kMaxSide)
-        {
-            options.width = *width;
-            options.height = *height;
-            return success();
-        }
+            return VkExtent2D{*width, *height};
     }
-    return usageError("--size: " + quoted(text) + " is not WxH with sides of 1 to 16384");
+    return usageError(option + ": " + quoted(text) + " is not WxH with sides of 1 to 16384");
+}
+
+Status parseImageSize(std::string_view text, DrawOptions& options)
+{
+    HEARTH_ASSIGN_OR_RETURN(const VkExtent2D size, parseSize("--size", text));
+    options.width = size.width;
+    options.height = size.height;
+    return success();
+}
+
+Status parseRenderSize(std::string_view text, FrameSettings& settings)
+{
+    HEARTH_ASSIGN_OR_RETURN(settings.render_size, parseSize("--render-size", text));
+    return success();
+}
+
+Status parseExposure(std::string_view text, gpu::PostSettings& post)
+{
+    constexpr float kMaxStops = 32; // beyond, half floats have no light left to show
+    const auto parts = splitText(text, ',');
+    const bool is_automatic = parts.front() == "auto";
+    const auto stops =
+        is_automatic && parts.size() == 1 ? std::optional(0.0f) : parseNumber<float>(parts.back());
+    if (!stops || std::abs(*stops) > kMaxStops || parts.size() > (is_automatic ? 2u : 1u))
+        return usageError("--exposure: " + quoted(text) +
+                          " is no number from -32 to 32, nor auto, nor auto and such a number");
+    post.exposure_stops = *stops;
+    post.automatic_exposure.reset();
+    if (is_automatic)
+        post.automatic_exposure.emplace();
+    return success();
+}
+
+Status parseBloom(std::string_view text, gpu::Bloom& bloom)
+{
+    const auto parts = splitText(text, ',');
+    const auto strength = parseNumber<float>(parts.front());
+    const bool adds = parts.size() == 2 && parts.back() == "add";
+    if (!strength || *strength < 0 || *strength > 1 || (parts.size() > 1 && !adds))
+        return usageError("--bloom: " + quoted(text) + " is no number from 0 to 1, or one with \",add\"");
+    bloom = {*strength, adds ? gpu::BloomMode::add : gpu::BloomMode::mix};
+    return success();
+}
+
+/// Parse "RRGGBB" of hexadecimal digits in sRGB. Returns a linear colour.
+std::optional<Float3> parseColor(std::string_view text)
+{
+    uint32_t digits = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), digits, 16);
+    if (text.size() != 6 || error != std::errc{} || end != text.data() + text.size())
+        return std::nullopt;
+    const auto linear = [&](uint32_t shift)
+    {
+        const float encoded = static_cast<float>(digits >> shift & 255u) / 255;
+        return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+    };
+    return Float3{linear(16), linear(8), linear(0)};
+}
+
+Status parsePhotoFilter(std::string_view text, gpu::PhotoFilter& filter)
+{
+    constexpr float kUsualDensity = 0.25f; // of image editors
+    const auto parts = splitText(text, ',');
+    const std::optional<Float3> color = parseColor(parts.front());
+    const auto density = parts.size() == 1 ? std::optional(kUsualDensity) : parseNumber<float>(parts.back());
+    if (!color || parts.size() > 2 || !density || *density < 0 || *density > 1)
+        return usageError("--photo-filter: " + quoted(text) + " is not RRGGBB[,DENSITY]");
+    filter = {*color, *density};
+    return success();
 }
 
 Status parseCameraOption(std::string_view text, DrawOptions& options)
@@ -301,7 +381,15 @@ std::string drawHelp()
 void addDrawOptions(CommandLine& command_line, DrawOptions& options)
 {
     FrameSettings& settings = options.settings;
-    command_line.addValue("--size", [&](std::string_view text) { return parseSize(text, options); });
+    command_line.addValue("--size", [&](std::string_view text) { return parseImageSize(text, options); });
+    command_line.addValue("--render-size",
+                          [&](std::string_view text) { return parseRenderSize(text, settings); });
+    command_line.addValue("--exposure",
+                          [&](std::string_view text) { return parseExposure(text, settings.post); });
+    command_line.addValue("--bloom",
+                          [&](std::string_view text) { return parseBloom(text, settings.post.bloom); });
+    command_line.addValue("--photo-filter", [&](std::string_view text)
+                          { return parsePhotoFilter(text, settings.post.photo_filter); });
     command_line.addValue("--camera",
                           [&](std::string_view text) { return parseCameraOption(text, options); });
     command_line.addValue("--scene-camera",

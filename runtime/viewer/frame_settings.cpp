@@ -73,15 +73,36 @@ std::span<const Named<uint32_t>> cullTestNames()
     return kTests;
 }
 
+namespace
+{
+
+/// True if frames of the settings may have levels of bloom.
+bool mayBloom(const FrameSettings& settings)
+{
+    return settings.post.bloom.strength > 0 || settings.post.automatic_exposure.has_value();
+}
+
+gpu::PostSupport postSupport(const FrameSettings& settings)
+{
+    if (settings.keeps_radiance)
+        return gpu::PostSupport::half;
+    if (mayBloom(settings) || settings.render_size)
+        return gpu::PostSupport::packed;
+    return isNeutral(settings.post) ? gpu::PostSupport::none : gpu::PostSupport::in_tile;
+}
+
+} // namespace
+
 gpu::RendererOptions rendererOptions(const FrameSettings& settings)
 {
     // the pyramid for the next frame is made of the depth
     return {.way = settings.way,
             .materials = settings.material_test.value_or(
-                settings.occludes_by_last_frame ? gpu::MaterialTest::id : gpu::MaterialTest::depth)};
+                settings.occludes_by_last_frame ? gpu::MaterialTest::id : gpu::MaterialTest::depth),
+            .post = postSupport(settings)};
 }
 
-gpu::TargetOptions targetOptions(const FrameSettings& settings, const gpu::Scene& scene,
+gpu::TargetOptions targetOptions(const FrameSettings& settings, const gpu::Scene& scene, VkExtent2D output,
                                  bool keeps_visibility)
 {
     const bool gathers = scene.bricks != nullptr;
@@ -91,7 +112,10 @@ gpu::TargetOptions targetOptions(const FrameSettings& settings, const gpu::Scene
             .keeps_visibility = keeps_visibility,
             .gathers_light = gathers,
             .may_split = gathers || gpu::shadesTiles(scene, settings.shaded_area),
-            .counts_missing = settings.occludes_by_last_frame};
+            .counts_missing = settings.occludes_by_last_frame,
+            .may_bloom = mayBloom(settings),
+            .output = output,
+            .keeps_radiance = settings.keeps_radiance};
 }
 
 gpu::FrameInput makeFrame(const FrameSettings& settings, const shared::Camera& camera,
@@ -109,7 +133,8 @@ gpu::FrameInput makeFrame(const FrameSettings& settings, const shared::Camera& c
                         .specular_occlusion = settings.specular_occlusion,
                         .gi = settings.gi,
                         .light_method = settings.light_method,
-                        .light_lister = settings.light_lister},
+                        .light_lister = settings.light_lister,
+                        .post = settings.post},
             .occludes_by_last_frame = settings.occludes_by_last_frame};
 }
 

@@ -28,6 +28,9 @@ struct FrameSettings
     bool gi = true;                                              ///< GI, for packs with bricks
     gpu::LightMethod light_method = gpu::LightMethod::practical;
     gpu::LightLister light_lister = gpu::LightLister::gpu;
+    gpu::PostSettings post;
+    std::optional<VkExtent2D> render_size; ///< pixels that are drawn; none: those of the image
+    bool keeps_radiance = false;           ///< as gpu::TargetOptions; in half floats
 };
 
 /// Value and its name for people.
@@ -54,8 +57,9 @@ std::span<const Named<uint32_t>> cullTestNames();
 gpu::RendererOptions rendererOptions(const FrameSettings& settings);
 
 /// Return the demands of frames with the settings on their targets.
+/// output            size of the image
 /// keeps_visibility  as gpu::TargetOptions
-gpu::TargetOptions targetOptions(const FrameSettings& settings, const gpu::Scene& scene,
+gpu::TargetOptions targetOptions(const FrameSettings& settings, const gpu::Scene& scene, VkExtent2D output,
                                  bool keeps_visibility = false);
 
 /// Make the input of a frame of the camera. The depth view shows the distance of the target as middle grey.

@@ -37,11 +37,21 @@ public:
     /// rgba  RGBA8 sRGB, scale * width x scale * height
     void add(std::span<const std::byte> rgba);
 
+    /// Add a frame of linear colours.
+    /// rgba  half floats, four of each sample
+    void addLinear(std::span<const std::byte> rgba);
+
     /// Return the image of all frames added: RGBA8 sRGB, opaque, each pixel the mean of its samples in linear
     /// light.
     std::vector<std::byte> average() const;
+    /// Return the same as linear colours, three floats of each pixel.
+    std::vector<float> averageLinear() const;
 
 private:
+    /// Add a frame; linear(i) is the linear value i of RGBA.
+    template <typename Linear>
+    void addFrame(const Linear& linear);
+
     uint32_t width_, height_, scale_;
     uint32_t frames_ = 0;
     std::vector<float> sums_; ///< three of each pixel

@@ -8,6 +8,7 @@
 #include "runtime/viewer/animation.h"
 #include "runtime/viewer/camera_path.h"
 #include "runtime/viewer/contact_sheet.h"
+#include "runtime/viewer/exr_output.h"
 #include "runtime/viewer/file_output.h"
 #include "runtime/viewer/page_reading.h"
 #include "runtime/viewer/pyramid_start.h"
@@ -101,6 +102,9 @@ void warnAboutMissing(uint64_t clusters, const std::string& name)
 /// Times that the first frame gathers indirect light; later frames have its result as their history.
 constexpr uint32_t kStillGathers = 6;
 
+/// Seconds between the images of a sequence without --time-step, for automatic exposure.
+constexpr float kFrameSeconds = 1.0f / 30;
+
 /// Draws the requested frames, and writes the requested files.
 class FrameRecorder
 {
@@ -153,6 +157,8 @@ public:
     {
         gpu::FrameInput frame = makeFrameInput(camera);
         frame.timestamps = timestamps_;
+        if (frame.shading.post.automatic_exposure)
+            frame.shading.post.automatic_exposure->time_step = timeStep(number);
         HEARTH_TRY(goTo(number));
         frame.moves = moves_;
         frame.poses = poses_;
@@ -176,20 +182,30 @@ public:
         return success();
     }
 
-    /// Draw all samples of an image. Returns it at the requested size: RGBA8 sRGB.
-    Result<std::vector<std::byte>> drawImage(const shared::Camera& camera, size_t number)
+    /// Draw all samples of an image, at the requested size.
+    Result<SampleSum> drawImage(const shared::Camera& camera, size_t number)
     {
         const SampleGrid samples = makeSampleGrid(options_.samples);
-        const VkExtent2D extent = targets_.extent();
+        const VkExtent2D extent = targets_.outputExtent();
         SampleSum sum(extent.width / samples.scale, extent.height / samples.scale, samples.scale);
+        // automatic exposure has no light before the first frame
+        if (settings_.post.automatic_exposure && times_.empty())
+            HEARTH_TRY(draw(camera, number));
         for (uint32_t frame = 0; frame < samples.frames; ++frame)
         {
             HEARTH_TRY(draw(shiftCamera(camera, frame, samples.frames, extent.width, extent.height), number));
+            if (writesLinear(options_))
+            {
+                HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> pixels,
+                                        host_.readSampled(renderer_.device(), targets_.post().radiance(), 8));
+                sum.addLinear(pixels);
+                continue;
+            }
             HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> pixels,
                                     host_.read(renderer_.device(), targets_.color(), 4));
             sum.add(pixels);
         }
-        return sum.average();
+        return sum;
     }
 
     /// Warn about objects that the last frame left out, and count them for the statistics.
@@ -280,6 +296,15 @@ private:
         frame.shadow_spheres = options_.shadows.spheres;
         frame.gathers = times_.empty() ? kStillGathers : 1;
         return frame;
+    }
+
+    /// Return the seconds since the last frame: none between the samples of an image.
+    float timeStep(size_t number)
+    {
+        const bool is_next = number != last_number_;
+        last_number_ = number;
+        const auto step = static_cast<float>(options_.animation.step_seconds);
+        return is_next ? (step > 0 ? step : kFrameSeconds) : 0;
     }
 
     /// Add the counts of the last frame to the statistics.
@@ -374,7 +399,8 @@ private:
     std::vector<ShadowCounts> shadows_;
     std::optional<SkinningCounts> skinning_;
     LightCounts lights_;
-    uint64_t serial_ = 0; ///< of the last frame
+    uint64_t serial_ = 0;    ///< of the last frame
+    size_t last_number_ = 0; ///< of its image
 };
 
 /// File name for a view: "a.png" becomes "a-lod.png"; unchanged without a view name.
@@ -447,6 +473,14 @@ std::vector<Named<uint32_t>> chooseViews(const RenderOptions& options)
     return options.views.empty() ? std::vector<Named<uint32_t>>{{"", options.settings.view}} : options.views;
 }
 
+/// Write an image with linear colours.
+Status writeLinear(const RenderOptions& options, const std::string& file, std::span<const float> rgb)
+{
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> encoded,
+                            encodeExr(rgb, options.width, options.height));
+    return writeFile(file, encoded);
+}
+
 Status writeImage(const RenderOptions& options, const std::string& file, std::span<const std::byte> pixels)
 {
     HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> encoded, encodeImage(options, pixels));
@@ -474,8 +508,10 @@ Status drawImages(const RenderOptions& options, const OutputCameras& images, Fra
                 const std::string of_view = viewFile(name, view.name);
                 return is_sequence ? numberedFile(of_view, i) : of_view;
             };
-            HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> image, run.drawImage(cameras[i], i));
-            HEARTH_TRY(writeImage(options, file(options.output), image));
+            HEARTH_ASSIGN_OR_RETURN(const SampleSum image, run.drawImage(cameras[i], i));
+            HEARTH_TRY(writesLinear(options)
+                           ? writeLinear(options, file(options.output), image.averageLinear())
+                           : writeImage(options, file(options.output), image.average()));
             HEARTH_TRY(run.checkDropped());
             if (!options.visibility.empty())
                 HEARTH_TRY(run.writeVisibility(file(options.visibility)));
@@ -495,9 +531,8 @@ Status drawSheet(const RenderOptions& options, const OutputCameras& images, cons
         for (size_t view = 0; view < views.size(); ++view)
         {
             run.setView(views[view].value);
-            HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> image,
-                                    run.drawImage(images.cameras[cell], cell));
-            sheets[view].place(cell, image);
+            HEARTH_ASSIGN_OR_RETURN(const SampleSum image, run.drawImage(images.cameras[cell], cell));
+            sheets[view].place(cell, image.average());
             HEARTH_TRY(run.checkDropped());
         }
     }
@@ -549,12 +584,15 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
     HEARTH_TRY(renderer->prepareLightMethod(*scene, options.settings.light_method));
 
     const uint32_t scale = makeSampleGrid(options.samples).scale;
+    const VkExtent2D size = sheet ? VkExtent2D{sheet->layout.cell_width, sheet->layout.cell_height}
+                                  : VkExtent2D{options.width, options.height};
+    const VkExtent2D drawn = sheet ? size : options.settings.render_size.value_or(size);
     HEARTH_ASSIGN_OR_RETURN(
         gpu::FrameTargets targets,
-        renderer->createTargets(
-            {(sheet ? sheet->layout.cell_width : options.width) * scale,
-             (sheet ? sheet->layout.cell_height : options.height) * scale},
-            targetOptions(options.settings, *scene, !options.visibility.empty() || !options.stats.empty())));
+        renderer->createTargets({drawn.width * scale, drawn.height * scale},
+                                targetOptions(options.settings, *scene,
+                                              {size.width * scale, size.height * scale},
+                                              !options.visibility.empty() || !options.stats.empty())));
     if (options.passes != PassesFormat::none)
     {
         printPasses(options, *renderer, *scene, targets, images.cameras.front());

@@ -91,22 +91,33 @@ Status parseSamples(std::string_view text, RenderOptions& options)
 
 } // namespace
 
+bool writesLinear(const RenderOptions& options)
+{
+    return options.output.ends_with(".exr");
+}
+
 bool fitsWholeScene(const RenderOptions& options)
 {
     const auto viewNeedsBricks = [](const Named<uint32_t>& view)
     { return shared::viewNeedsBricks(view.value); };
     return !options.camera && !options.scene_camera && options.camera_path.empty() &&
            options.meshes.empty() && options.frames == 1 && !options.animation.clip &&
-           options.visibility.empty() && !shared::viewNeedsBricks(options.settings.view) &&
+           options.visibility.empty() && !writesLinear(options) &&
+           !shared::viewNeedsBricks(options.settings.view) &&
            std::none_of(options.views.begin(), options.views.end(), viewNeedsBricks);
 }
 
 std::string renderHelp()
 {
-    return std::string("Usage: hearth-render PACK -o IMAGE.png [options]\n"
-                       "Draw a pack without a window.\n"
-                       "\n"
-                       "  -o, --output FILE       the image, PNG, or JPEG where it ends in .jpg\n") +
+    return std::string(
+               "Usage: hearth-render PACK -o IMAGE.png [options]\n"
+               "Draw a pack without a window.\n"
+               "\n"
+               "  -o, --output FILE       the image, PNG, or JPEG where it ends in .jpg; where it ends in "
+               ".exr the\n"
+               "                          linear colours as OpenEXR, in half floats: of the lit scene, "
+               "without\n"
+               "                          --exposure, --bloom, --photo-filter and tone curve\n") +
            drawHelp() +
            "\n"
            "      --camera-path FILE  an image for each line of FILE, written as for --camera: "
@@ -186,6 +197,10 @@ Result<RenderOptions> parseRenderOptions(std::span<const char* const> arguments)
         return usageError("--dump-visibility needs --samples 1: it shows one triangle in each pixel");
     if (!options.visibility.empty())
         options.samples = 1;
+    options.settings.keeps_radiance = writesLinear(options);
+    if (writesLinear(options) && (options.settings.view != shared::kViewFinal || !options.views.empty() ||
+                                  options.settings.render_size))
+        return usageError("--view, --views and --render-size draw no linear colours (-o IMAGE.exr)");
     HEARTH_TRY(checkDrawOptions(options));
     if (options.output.empty() && options.passes == PassesFormat::none)
         return usageError("no output is named (-o IMAGE.png)");
@@ -199,9 +214,9 @@ Result<RenderOptions> parseRenderOptions(std::span<const char* const> arguments)
                                     options.scene_camera || options.animation.clip))
         return usageError("--meshes excludes cameras, --frames and --animation");
     if (options.sheet == SheetChoice::on && !fitsWholeScene(options))
-        return usageError(
-            "--sheet on excludes cameras, --meshes, --frames, --animation, --dump-visibility and views of "
-            "bricks");
+        return usageError("--sheet on excludes cameras, --meshes, --frames, --animation, --dump-visibility, "
+                          "OpenEXR and views "
+                          "of bricks");
     return options;
 }
 

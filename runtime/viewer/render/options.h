@@ -51,6 +51,9 @@ struct RenderOptions : DrawOptions
     bool print_device_name = false; ///< only prints the name of the device
 };
 
+/// True if the output is an OpenEXR file, which has linear colours.
+bool writesLinear(const RenderOptions& options);
+
 /// True if the whole scene is drawn once at rest from a fitted camera, so that a sheet can replace it.
 bool fitsWholeScene(const RenderOptions& options);
 

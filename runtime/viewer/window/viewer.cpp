@@ -291,8 +291,13 @@ Status Viewer::resize()
     targets_.reset();
     if (extent.width == 0)
         return success();
-    HEARTH_ASSIGN_OR_RETURN(
-        targets_, renderer_->createTargets(extent, {.gathers_light = scene_->scene().bricks != nullptr}));
+    const FrameSettings& frame = settings_.frame;
+    HEARTH_ASSIGN_OR_RETURN(targets_,
+                            renderer_->createTargets(frame.render_size.value_or(extent),
+                                                     {.gathers_light = scene_->scene().bricks != nullptr,
+                                                      .may_bloom = frame.post.bloom.strength > 0 ||
+                                                                   frame.post.automatic_exposure.has_value(),
+                                                      .output = extent}));
     return success();
 }
 
@@ -344,6 +349,8 @@ void Viewer::recordFrame(VkCommandBuffer commands, uint32_t image, bool panel, c
         scene.stream->beginFrame(frames_->serial() + 1, frames_->completedSerial());
     gpu::FrameInput frame =
         makeFrame(settings_.frame, camera_.camera(), scene.instance_count, targets_->extent());
+    if (frame.shading.post.automatic_exposure)
+        frame.shading.post.automatic_exposure->time_step = static_cast<float>(frame_seconds_);
     frame.shadow_spheres = shadow_spheres_;
     frame.moves = moves_;
     frame.poses = poses_;

@@ -46,7 +46,7 @@ void recordImage(const gpu::Device& device, const WindowTable& vk, VkCommandBuff
 {
     transition(device, commands, window, {kTransfer, 0, VK_IMAGE_LAYOUT_UNDEFINED}, kTransferWrite);
     // texel by texel: a blit converts the order of channels to the window's, which a copy would not
-    const VkExtent2D extent = targets.extent();
+    const VkExtent2D extent = targets.outputExtent();
     const VkOffset3D corner{static_cast<int32_t>(extent.width), static_cast<int32_t>(extent.height), 1};
     const VkImageSubresourceLayers color{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     const VkImageBlit region{color, {{}, corner}, color, {{}, corner}};

@@ -1,8 +1,11 @@
 // Tests the command line of hearth-render, its camera and its files. No device is needed.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/base/half.h"
 #include "formats/gpu_shared/shading.h"
+#include "pipelines/import/images/decode.h"
 #include "runtime/viewer/camera_fit.h"
 #include "runtime/viewer/camera_path.h"
+#include "runtime/viewer/exr_output.h"
 #include "runtime/viewer/file_output.h"
 #include "runtime/viewer/render/options.h"
 #include "runtime/viewer/report/cull_report.h"
@@ -13,6 +16,7 @@
 #include "tests/support/test_scene.h"
 
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -58,6 +62,45 @@ TEST(RenderOptions, defaultsFitTheScene)
     EXPECT_EQ(options->geometry_budget, 0u) << "all is resident";
     EXPECT_GT(options->shadows.options.max_maps, 0u) << "shadows";
     EXPECT_TRUE(options->shadows.fit_maps);
+}
+
+TEST(RenderOptions, ofWhatFollowsTheLightingAreRead)
+{
+    const auto plain = parse({"a.hearth", "-o", "a.png"});
+    EXPECT_TRUE(gpu::isNeutral(plain->settings.post));
+    EXPECT_EQ(viewer::rendererOptions(plain->settings).post, gpu::PostSupport::none);
+    const auto graded = parse({"a.hearth", "-o", "a.png", "--exposure=-1.5", "--photo-filter", "ff8000,0.5"});
+    ASSERT_TRUE(graded.ok());
+    EXPECT_EQ(graded->settings.post.exposure_stops, -1.5f);
+    EXPECT_EQ(graded->settings.post.photo_filter.color.x, 1);
+    EXPECT_NEAR(graded->settings.post.photo_filter.color.y, 0.2159f, 1e-4f) << "linear";
+    EXPECT_EQ(graded->settings.post.photo_filter.density, 0.5f);
+    EXPECT_EQ(viewer::rendererOptions(graded->settings).post, gpu::PostSupport::in_tile);
+    const auto blooming = parse({"a.hearth", "-o", "a.png", "--exposure", "auto,-2", "--bloom", "0.1,add"});
+    ASSERT_TRUE(blooming.ok());
+    EXPECT_TRUE(blooming->settings.post.automatic_exposure.has_value());
+    EXPECT_EQ(blooming->settings.post.exposure_stops, -2);
+    EXPECT_EQ(parse({"a.hearth", "-o", "a.png", "--exposure", "auto"})->settings.post.exposure_stops, 0);
+    EXPECT_EQ(blooming->settings.post.bloom.strength, 0.1f);
+    EXPECT_EQ(blooming->settings.post.bloom.mode, gpu::BloomMode::add);
+    EXPECT_EQ(viewer::rendererOptions(blooming->settings).post, gpu::PostSupport::packed);
+    const auto small = parse({"a.hearth", "-o", "a.png", "--render-size", "320x180"});
+    EXPECT_EQ(small->settings.render_size->width, 320u);
+    EXPECT_EQ(viewer::rendererOptions(small->settings).post, gpu::PostSupport::packed);
+    const auto linear = parse({"a.hearth", "-o", "a.exr"});
+    EXPECT_TRUE(linear->settings.keeps_radiance);
+    EXPECT_EQ(viewer::rendererOptions(linear->settings).post, gpu::PostSupport::half);
+    for (const auto& [option, value] :
+         std::initializer_list<std::pair<const char*, const char*>>{{"--exposure", "bright"},
+                                                                    {"--exposure", "99"},
+                                                                    {"--exposure", "1,2"},
+                                                                    {"--bloom", "2"},
+                                                                    {"--bloom", "0.1,more"},
+                                                                    {"--photo-filter", "warm"},
+                                                                    {"--photo-filter", "ff8000,2"},
+                                                                    {"--render-size", "320"}})
+        expectUsage({"a.hearth", "-o", "a.png", option, value}, option);
+    expectUsage({"a.hearth", "-o", "a.exr", "--view", "lod"}, "linear colours");
 }
 
 TEST(RenderOptions, takeFourSamplesUnlessToldOtherwise)
@@ -340,6 +383,36 @@ TEST(SampleSum, averagesInLinearLight)
     EXPECT_EQ(std::to_integer<int>(half[0]), 188) << "half of the light, not half of the code";
     sum.add(std::vector<std::byte>(2 * 2 * 4, std::byte{255}));
     EXPECT_EQ(std::to_integer<int>(sum.average()[0]), 225) << "three quarters of the light";
+}
+
+TEST(Exr, holdsWhatAHalfFloatHolds)
+{
+    const float numbers[] = {0, 0.25f, 1,     2.0f / 3, 1000, 1e9f, 0.004f, 12.5f, 3,
+                             7, 0.1f,  60000, 1,        1,    1,    2,      2,     2};
+    const auto file = viewer::encodeExr(numbers, 3, 2);
+    ASSERT_TRUE(file.ok());
+    const auto image = import::decodeImage(*file, "a.exr", {});
+    ASSERT_TRUE(image.ok()) << formatMessage(image.error());
+    ASSERT_EQ(image->width, 3u);
+    ASSERT_EQ(image->height, 2u);
+    ASSERT_EQ(image->type, import::ChannelType::float16);
+    for (size_t i = 0; i < std::size(numbers); ++i)
+    {
+        uint16_t half;
+        std::memcpy(&half, &image->texels[(i / 3 * 4 + i % 3) * sizeof(half)], sizeof(half));
+        EXPECT_EQ(half, halfFromFloat(std::min(numbers[i], kHalfMax))) << i;
+    }
+}
+
+TEST(SampleSum, averagesLinearColours)
+{
+    const uint16_t halves[] = {halfFromFloat(1), halfFromFloat(3), halfFromFloat(200), 0,
+                               halfFromFloat(2), halfFromFloat(5), halfFromFloat(0),   0};
+    std::vector<uint16_t> samples(2 * 2 * 4);
+    std::copy(std::begin(halves), std::end(halves), samples.begin());
+    viewer::SampleSum sum(1, 1, 2);
+    sum.addLinear(std::as_bytes(std::span(samples)));
+    EXPECT_EQ(sum.averageLinear(), (std::vector<float>{0.75f, 2, 50}));
 }
 
 TEST(SampleSum, keepsEveryCodeOfOneSample)
