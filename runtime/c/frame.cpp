@@ -38,6 +38,30 @@ Status check(const hearth_camera& camera)
     return success();
 }
 
+bool isShare(float value)
+{
+    return value >= 0 && value <= 1;
+}
+
+/// Check what follows the lighting.
+Status checkPost(const gpu::Renderer& renderer, const hearth_frame& frame)
+{
+    if (!std::isfinite(frame.exposure_stops) || std::abs(frame.exposure_stops) > 64)
+        return usage("exposure_stops is not from -64 to 64");
+    if (frame.automatic_exposure > 1 || frame.bloom_mode > HEARTH_BLOOM_ADD)
+        return usage("automatic_exposure is neither 0 nor 1, or bloom_mode is unknown to this version");
+    if (!isShare(frame.filter_density) || !isShare(frame.bloom_strength) ||
+        !std::all_of(frame.filter_color, frame.filter_color + 3, isShare))
+        return usage("filter_color, filter_density or bloom_strength is not from 0 to 1");
+    if (!(frame.exposure_key > 0) || !std::isfinite(frame.exposure_key) ||
+        !(frame.exposure_time_constant >= 0) || !(frame.exposure_time_step >= 0))
+        return usage("exposure_key is not above 0, or exposure_time_constant or _time_step below 0");
+    const bool has_grading = frame.exposure_stops != 0 || frame.filter_density != 0;
+    if (has_grading && renderer.postSupport() == gpu::PostSupport::none)
+        return usage("exposure_stops and filter_density need a renderer with HEARTH_FEATURE_GRADING");
+    return success();
+}
+
 Status check(const hearth_renderer& renderer, const hearth_frame& frame)
 {
     HEARTH_TRY(check(frame.camera));
@@ -66,7 +90,7 @@ Status check(const hearth_renderer& renderer, const hearth_frame& frame)
         return usage("occlusion has a value that this version does not know");
     if (frame.constant_sky > 1)
         return usage("constant_sky is neither 0 nor 1");
-    return success();
+    return checkPost(*renderer.renderer, frame);
 }
 
 /// Check a frame of the scene with the targets.
@@ -80,6 +104,9 @@ Status checkFrame(const hearth_scene& scene, const hearth_targets& targets, cons
         return usage("HEARTH_VIEW_SHADOW_MAPS needs a scene with shadows");
     if (shared::viewNeedsBricks(frame->debug_view) && scene.scene->bricks == nullptr)
         return usage("HEARTH_VIEW_BRICKS, _BRICK_LIGHTING and _GI need a scene whose pack has bricks");
+    const bool blooms = frame->bloom_strength > 0 || frame->automatic_exposure != 0;
+    if (blooms && !targets.targets.options().may_bloom)
+        return usage("bloom_strength and automatic_exposure need targets with HEARTH_TARGETS_BLOOM");
     return success();
 }
 
@@ -189,6 +216,19 @@ Status makePoses(hearth_scene& scene, const hearth_frame& frame)
     return success();
 }
 
+gpu::PostSettings makePost(const hearth_frame& frame)
+{
+    gpu::PostSettings post{.exposure_stops = frame.exposure_stops,
+                           .photo_filter = {toFloat3(frame.filter_color), frame.filter_density},
+                           .bloom = {frame.bloom_strength, frame.bloom_mode == HEARTH_BLOOM_ADD
+                                                               ? gpu::BloomMode::add
+                                                               : gpu::BloomMode::mix}};
+    if (frame.automatic_exposure != 0)
+        post.automatic_exposure = {frame.exposure_key, frame.exposure_time_constant,
+                                   frame.exposure_time_step};
+    return post;
+}
+
 /// Uses the moves, poses, lights and shadow spheres of the frame's first part.
 Result<gpu::FrameInput> makeInput(const hearth_scene& scene, const gpu::FrameTargets& targets,
                                   const hearth_frame& frame)
@@ -200,7 +240,8 @@ Result<gpu::FrameInput> makeInput(const hearth_scene& scene, const gpu::FrameTar
                                        .area = static_cast<gpu::ShadedArea>(frame.shaded_area),
                                        .ambient_occlusion = frame.ambient_occlusion,
                                        .specular_occlusion = frame.specular_occlusion,
-                                       .gi = frame.constant_sky == 0},
+                                       .gi = frame.constant_sky == 0,
+                                       .post = makePost(frame)},
                            .occludes_by_last_frame = frame.occlusion == HEARTH_OCCLUSION_LAST_FRAME,
                            .moves = scene.moves,
                            .poses = scene.poses,

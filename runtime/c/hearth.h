@@ -105,7 +105,10 @@ enum
 {
     HEARTH_FEATURE_SAMPLER_ANISOTROPY = 1, /* the caller enabled samplerAnisotropy: use it */
     HEARTH_FEATURE_OVERDRAW = 2,           /* create the pipelines of HEARTH_VIEW_OVERDRAW */
-    HEARTH_FEATURE_DEBUG_LABELS = 4        /* 1.1: the caller enabled VK_EXT_debug_utils: name the passes */
+    HEARTH_FEATURE_DEBUG_LABELS = 4,       /* 1.1: the caller enabled VK_EXT_debug_utils: name the passes */
+    HEARTH_FEATURE_GRADING = 8,            /* 1.8: frames may have exposure_stops and a photo filter */
+    /* 1.8: and bloom, automatic exposure, and targets with another output size; twice the pipelines that shade */
+    HEARTH_FEATURE_FINAL_PASS = 16
 };
 
 /* Purpose of device memory. */
@@ -399,7 +402,8 @@ enum
     HEARTH_TARGETS_KEEP_VISIBILITY = 1, /* the visibility buffer can be copied after a frame */
     /* frames may be recorded in parts, or with HEARTH_SHADE_TILES, also where the scene does not need it */
     HEARTH_TARGETS_SPLIT = 2,
-    HEARTH_TARGETS_COUNT_MISSING = 4 /* hearth_record_missing may follow a frame: takes a second pyramid */
+    HEARTH_TARGETS_COUNT_MISSING = 4, /* hearth_record_missing may follow a frame: takes a second pyramid */
+    HEARTH_TARGETS_BLOOM = 8 /* frames may have bloom or automatic exposure; with HEARTH_FEATURE_FINAL_PASS */
 };
 
 /* What frames with the targets may ask for (1.8): images that never leave a tile-based GPU's tile need no
@@ -407,16 +411,18 @@ enum
 typedef struct hearth_targets_description
 {
     uint32_t struct_size;
-    uint32_t width, height;    /* pixels, 1 to the limit of the device */
+    uint32_t width, height;    /* pixels that are drawn, 1 to the limit of the device */
     uint32_t occlusion;        /* HEARTH_OCCLUSION_*: the first of them that a frame may have */
     uint32_t flags;            /* HEARTH_TARGETS_* */
     uint32_t reserved;         /* 0 */
     const hearth_scene* scene; /* that they will show, which saves what it does not need; or NULL: any */
+    /* pixels of the image, to which a final pass enlarges or reduces what is drawn; 0: width and height */
+    uint32_t output_width, output_height;
 } hearth_targets_description;
 
 #define HEARTH_TARGETS_DESCRIPTION_INIT                                                                      \
     {                                                                                                        \
-        sizeof(hearth_targets_description), 0, 0, HEARTH_OCCLUSION_TWO_PHASE, 0, 0, NULL                     \
+        sizeof(hearth_targets_description), 0, 0, HEARTH_OCCLUSION_TWO_PHASE, 0, 0, NULL, 0, 0               \
     }
 
 /* errors: USAGE, DEVICE_LIMIT, DEVICE_FAILED, OUT_OF_MEMORY. */
@@ -445,9 +451,9 @@ typedef struct hearth_image
 typedef struct hearth_targets_info
 {
     uint32_t struct_size;
-    uint32_t width, height; /* pixels */
+    uint32_t width, height; /* pixels that are drawn */
     uint32_t reserved;      /* 0 */
-    hearth_image color;     /* R8G8B8A8_SRGB */
+    hearth_image color;     /* R8G8B8A8_SRGB, of the output's size */
     /* R32_UINT: slot of the visible list << 7 | triangle, or 0xFFFFFFFF. With HEARTH_TARGETS_KEEP_VISIBILITY;
      * else `image` is VK_NULL_HANDLE. */
     hearth_image visibility;
@@ -632,6 +638,12 @@ typedef struct hearth_emission_scale
     float factor; /* 0 or more */
 } hearth_emission_scale;
 
+enum
+{
+    HEARTH_BLOOM_MIX = 0, /* the spread light replaces a share of the image, whose mean it keeps */
+    HEARTH_BLOOM_ADD = 1
+};
+
 typedef struct hearth_frame
 {
     uint32_t struct_size;
@@ -662,13 +674,24 @@ typedef struct hearth_frame
     uint32_t emission_count; /* up to 8 */
     /* since 1.8 */
     uint32_t occlusion; /* HEARTH_OCCLUSION_*, with HEARTH_CULL_OCCLUSION */
+    /* behind the lighting of HEARTH_VIEW_FINAL; neutral by default */
+    float exposure_stops;         /* 1: twice as bright; behind the automatic exposure */
+    uint32_t automatic_exposure;  /* 1: follows the light of the frames before with the targets; or 0 */
+    float exposure_key;           /* luminance that the mean of a frame gets (of logarithms), above 0 */
+    float exposure_time_constant; /* seconds in which it goes 63 % of the way; 0: at once */
+    float exposure_time_step;     /* seconds since the last frame */
+    float filter_color[3];        /* of a photo filter, linear, 0 to 1 */
+    float filter_density;         /* 0: no filter, to 1 */
+    float bloom_strength;         /* 0: no bloom, to 1: share of the light that spreads */
+    uint32_t bloom_mode;          /* HEARTH_BLOOM_* */
 } hearth_frame;
 
 #define HEARTH_FRAME_INIT                                                                                    \
     {                                                                                                        \
         sizeof(hearth_frame), HEARTH_CULL_EVERYTHING, {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 0.8f, 0.01f}, 1,    \
             NULL, 0, 0, NULL, HEARTH_VIEW_FINAL, 1, HEARTH_SHADE_AUTOMATIC, 0, NULL, VK_NULL_HANDLE, NULL,   \
-            0, HEARTH_AMBIENT_OCCLUSION_EXACT, HEARTH_SPECULAR_OCCLUSION_FIT, 0, NULL, NULL, 0, 0, 0         \
+            0, HEARTH_AMBIENT_OCCLUSION_EXACT, HEARTH_SPECULAR_OCCLUSION_FIT, 0, NULL, NULL, 0, 0, 0, 0, 0,  \
+            0.18f, 1, 0, {1, 1, 1}, 0, 0, HEARTH_BLOOM_MIX                                                   \
     }
 
 /* ---- Tables of a pack (1.6), on any thread ----

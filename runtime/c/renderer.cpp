@@ -13,8 +13,9 @@ using namespace hearth::c;
 namespace
 {
 
-constexpr uint32_t kFeatures =
-    HEARTH_FEATURE_SAMPLER_ANISOTROPY | HEARTH_FEATURE_OVERDRAW | HEARTH_FEATURE_DEBUG_LABELS;
+constexpr uint32_t kFeatures = HEARTH_FEATURE_SAMPLER_ANISOTROPY | HEARTH_FEATURE_OVERDRAW |
+                               HEARTH_FEATURE_DEBUG_LABELS | HEARTH_FEATURE_GRADING |
+                               HEARTH_FEATURE_FINAL_PASS;
 
 /// Sizes of the description in versions 1.0, and 1.1 to 1.7.
 constexpr size_t kOldDescriptionBytes[] = {offsetof(hearth_renderer_description, memory),
@@ -108,6 +109,13 @@ std::optional<gpu::FrameWay> toFrameWay(uint32_t way)
     }
 }
 
+gpu::PostSupport toPostSupport(uint32_t features)
+{
+    if ((features & HEARTH_FEATURE_FINAL_PASS) != 0)
+        return gpu::PostSupport::packed;
+    return (features & HEARTH_FEATURE_GRADING) != 0 ? gpu::PostSupport::in_tile : gpu::PostSupport::none;
+}
+
 Result<std::unique_ptr<hearth_renderer>> create(const hearth_renderer_description& description)
 {
     auto made = std::make_unique<hearth_renderer>();
@@ -116,7 +124,8 @@ Result<std::unique_ptr<hearth_renderer>> create(const hearth_renderer_descriptio
         made->renderer,
         gpu::Renderer::create(toDevice(description, made->memory),
                               {.way = toFrameWay(description.frame_way),
-                               .materials = static_cast<gpu::MaterialTest>(description.materials)}));
+                               .materials = static_cast<gpu::MaterialTest>(description.materials),
+                               .post = toPostSupport(description.features)}));
     made->shows_overdraw = (description.features & HEARTH_FEATURE_OVERDRAW) != 0;
     if (made->shows_overdraw)
         HEARTH_TRY(made->renderer->prepareOverdraw());

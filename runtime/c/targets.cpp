@@ -36,10 +36,17 @@ Status check(const hearth_renderer& renderer, const hearth_targets_description& 
         return usage("width or height is 0");
     if (description.occlusion > HEARTH_OCCLUSION_OFF)
         return usage("occlusion has a value that this version does not know");
-    constexpr uint32_t kFlags =
-        HEARTH_TARGETS_KEEP_VISIBILITY | HEARTH_TARGETS_SPLIT | HEARTH_TARGETS_COUNT_MISSING;
+    constexpr uint32_t kFlags = HEARTH_TARGETS_KEEP_VISIBILITY | HEARTH_TARGETS_SPLIT |
+                                HEARTH_TARGETS_COUNT_MISSING | HEARTH_TARGETS_BLOOM;
     if ((description.flags & ~kFlags) != 0 || description.reserved != 0)
         return usage("flags has bits that this version does not know, or reserved is not 0");
+    if ((description.output_width == 0) != (description.output_height == 0))
+        return usage("output_width or output_height is 0");
+    const bool needs_final_pass =
+        (description.flags & HEARTH_TARGETS_BLOOM) != 0 || description.output_width != 0;
+    if (needs_final_pass && !renderer.renderer->hasFinalPasses())
+        return usage("HEARTH_TARGETS_BLOOM and an output size need a renderer with "
+                     "HEARTH_FEATURE_FINAL_PASS");
     if (description.scene != nullptr && description.scene->renderer != &renderer)
         return usage("the scene is of another renderer");
     return success();
@@ -49,7 +56,9 @@ gpu::TargetOptions toOptions(const hearth_targets_description& description)
 {
     gpu::TargetOptions options{.occlusion = toOcclusion(description.occlusion),
                                .keeps_visibility = (description.flags & HEARTH_TARGETS_KEEP_VISIBILITY) != 0,
-                               .counts_missing = (description.flags & HEARTH_TARGETS_COUNT_MISSING) != 0};
+                               .counts_missing = (description.flags & HEARTH_TARGETS_COUNT_MISSING) != 0,
+                               .may_bloom = (description.flags & HEARTH_TARGETS_BLOOM) != 0,
+                               .output = {description.output_width, description.output_height}};
     if (description.scene == nullptr)
         return options;
     const gpu::Scene& scene = *description.scene->scene;

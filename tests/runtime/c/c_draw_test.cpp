@@ -40,6 +40,45 @@ TEST_F(CApiTest, handsOnAllThatAFrameSays)
     }
 }
 
+TEST_F(CApiTest, bloomsAtAnotherSize)
+{
+    hearth_renderer_description description = c_caller_description(caller_);
+    description.features = HEARTH_FEATURE_FINAL_PASS;
+    recreateRenderer(description);
+    hearth_targets_description size = HEARTH_TARGETS_DESCRIPTION_INIT;
+    size.width = 32;
+    size.height = 24;
+    size.output_width = 64;
+    size.output_height = 48;
+    size.flags = HEARTH_TARGETS_BLOOM;
+    hearth_targets* targets = nullptr;
+    ASSERT_EQ(hearth_targets_create(renderer_, &size, &targets), HEARTH_OK) << hearth_last_error(renderer_);
+    hearth_targets_info info = HEARTH_TARGETS_INFO_INIT;
+    ASSERT_EQ(hearth_targets_get_info(targets, &info), HEARTH_OK);
+    EXPECT_EQ(info.width, 32u);
+    EXPECT_EQ(info.color.after.layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
+    hearth_scene* scene = nullptr;
+    hearth_frame frame = makeFrame();
+    frame.automatic_exposure = 1;
+    frame.exposure_time_step = 0.1f;
+    frame.bloom_strength = 0.1f;
+    frame.exposure_stops = 1;
+    frame.filter_density = 0.5f;
+    const hearth_scene_options options = HEARTH_SCENE_OPTIONS_INIT;
+    VkCommandBuffer commands = c_caller_begin(caller_);
+    ASSERT_EQ(hearth_scene_upload(renderer_, pack_, commands, &options, &scene), HEARTH_OK);
+    ASSERT_EQ(c_caller_submit(caller_), VK_SUCCESS);
+    for (int i = 0; i < 2; ++i)
+    {
+        commands = c_caller_begin(caller_);
+        EXPECT_EQ(hearth_record_frame(scene, targets, commands, &frame), HEARTH_OK)
+            << hearth_last_error(renderer_);
+        ASSERT_EQ(c_caller_submit(caller_), VK_SUCCESS);
+    }
+    EXPECT_EQ(hearth_scene_destroy(scene), HEARTH_OK);
+    EXPECT_EQ(hearth_targets_destroy(targets), HEARTH_OK);
+}
+
 TEST_F(CApiTest, castsTheShadowsOfTheRenderer)
 {
     for (const uint32_t depth_bits : {32u, 16u})

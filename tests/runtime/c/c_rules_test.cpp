@@ -278,6 +278,14 @@ TEST_F(CFrameRulesTest, framesThatBreakRulesAreRefused)
     EXPECT_THAT(refused([](F& f) { f.debug_view = 19; }), HasSubstr("debug_view"));
     EXPECT_THAT(refused([](F& f) { f.debug_view = HEARTH_VIEW_GI; }), HasSubstr("has bricks"));
     EXPECT_THAT(refused([](F& f) { f.constant_sky = 2; }), HasSubstr("constant_sky"));
+    EXPECT_THAT(refused([](F& f) { f.exposure_stops = kNan; }), HasSubstr("exposure_stops"));
+    EXPECT_THAT(refused([](F& f) { f.exposure_stops = 1; }), HasSubstr("HEARTH_FEATURE_GRADING"));
+    EXPECT_THAT(refused([](F& f) { f.exposure_key = 0; }), HasSubstr("exposure_key"));
+    EXPECT_THAT(refused([](F& f) { f.automatic_exposure = 2; }), HasSubstr("automatic_exposure"));
+    EXPECT_THAT(refused([](F& f) { f.automatic_exposure = 1; }), HasSubstr("HEARTH_TARGETS_BLOOM"));
+    EXPECT_THAT(refused([](F& f) { f.filter_density = 2; }), HasSubstr("filter_density"));
+    EXPECT_THAT(refused([](F& f) { f.bloom_mode = 2; }), HasSubstr("bloom_mode"));
+    EXPECT_THAT(refused([](F& f) { f.bloom_strength = 0.1f; }), HasSubstr("HEARTH_TARGETS_BLOOM"));
     EXPECT_THAT(refused([](F& f) { f.ambient_occlusion = 4; }), HasSubstr("ambient_occlusion"));
     EXPECT_THAT(refused([](F& f) { f.specular_occlusion = 3; }), HasSubstr("specular_occlusion"));
     EXPECT_THAT(refused([](F& f) { f.debug_view = HEARTH_VIEW_SHADOW_MAPS; }), HasSubstr("with shadows"));
