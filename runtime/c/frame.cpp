@@ -90,6 +90,8 @@ Status check(const hearth_renderer& renderer, const hearth_frame& frame)
         return usage("occlusion has a value that this version does not know");
     if (frame.constant_sky > 1)
         return usage("constant_sky is neither 0 nor 1");
+    if (frame.light_lists > HEARTH_LIGHT_LISTS_CPU)
+        return usage("light_lists has a value that this version does not know");
     return checkPost(*renderer.renderer, frame);
 }
 
@@ -104,6 +106,9 @@ Status checkFrame(const hearth_scene& scene, const hearth_targets& targets, cons
         return usage("HEARTH_VIEW_SHADOW_MAPS needs a scene with shadows");
     if (shared::viewNeedsBricks(frame->debug_view) && scene.scene->bricks == nullptr)
         return usage("HEARTH_VIEW_BRICKS, _BRICK_LIGHTING and _GI need a scene whose pack has bricks");
+    if (frame->light_method >= gpu::kLightMethodCount ||
+        (scene.prepared_lights >> frame->light_method & 1) == 0)
+        return usage("light_method is unknown, or hearth_scene_prepare_lights has not prepared it");
     const bool blooms = frame->bloom_strength > 0 || frame->automatic_exposure != 0;
     if (blooms && !targets.targets.options().may_bloom)
         return usage("bloom_strength and automatic_exposure need targets with HEARTH_TARGETS_BLOOM");
@@ -241,6 +246,8 @@ Result<gpu::FrameInput> makeInput(const hearth_scene& scene, const gpu::FrameTar
                                        .ambient_occlusion = frame.ambient_occlusion,
                                        .specular_occlusion = frame.specular_occlusion,
                                        .gi = frame.constant_sky == 0,
+                                       .light_method = static_cast<gpu::LightMethod>(frame.light_method),
+                                       .light_lister = static_cast<gpu::LightLister>(frame.light_lists),
                                        .post = makePost(frame)},
                            .occludes_by_last_frame = frame.occlusion == HEARTH_OCCLUSION_LAST_FRAME,
                            .moves = scene.moves,
@@ -367,7 +374,8 @@ hearth_result hearth_describe_passes(const hearth_scene* scene, const hearth_tar
                         .view = view,
                         .shading = {.debug_view = frame->debug_view,
                                     .area = static_cast<gpu::ShadedArea>(frame->shaded_area),
-                                    .gi = frame->constant_sky == 0},
+                                    .gi = frame->constant_sky == 0,
+                                    .light_lister = static_cast<gpu::LightLister>(frame->light_lists)},
                         .occludes_by_last_frame = frame->occlusion == HEARTH_OCCLUSION_LAST_FRAME};
                     const std::string text = gpu::formatFrameJson(
                         scene->renderer->renderer->describe(*scene->scene, targets->targets, input));

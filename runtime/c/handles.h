@@ -57,6 +57,8 @@ struct hearth_scene
     hearth_pack* pack;
     std::shared_ptr<hearth::gpu::Scene> scene; ///< the only owner
 
+    uint32_t prepared_lights = 1u << HEARTH_LIGHTS_PRACTICAL; ///< bit i: light method i
+
     /// Frame that was begun; streamed scenes only.
     uint64_t serial = 0, completed_serial = 0;
     bool to_be_recorded = false;

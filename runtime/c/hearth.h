@@ -283,11 +283,16 @@ typedef struct hearth_scene_options
     /* since 1.2: bytes for the vertices of deformed clusters, which are skinned once per frame; clusters that
      * do not fit are skinned on demand, with the same result */
     uint64_t skinning_bytes;
+    /* since 1.8: slots of lights, up to 4096: the pack's lights, and behind them those of the game
+     * (hearth_light_change); at least as many as the pack has */
+    uint32_t max_lights;
+    uint32_t reserved; /* 0 */
 } hearth_scene_options;
 
 #define HEARTH_SCENE_OPTIONS_INIT                                                                            \
     {                                                                                                        \
-        sizeof(hearth_scene_options), 4194304, 0, NULL, NULL, 32, 3, HEARTH_SHADOW_OPTIONS_INIT, 16777216    \
+        sizeof(hearth_scene_options), 4194304, 0, NULL, NULL, 32, 3, HEARTH_SHADOW_OPTIONS_INIT, 16777216,   \
+            128, 0                                                                                           \
     }
 
 /* Record the copies of a scene. If the call fails, discard `commands`. The pack outlives the scene.
@@ -320,6 +325,10 @@ typedef struct hearth_scene_info
     }
 
 HEARTH_API hearth_result hearth_scene_get_info(const hearth_scene* scene, hearth_scene_info* info);
+
+/* Create the pipelines of a light method (HEARTH_LIGHTS_*, 1.8) before a frame of the scene that uses it.
+ * errors: USAGE, DEVICE_FAILED, OUT_OF_MEMORY. */
+HEARTH_API hearth_result hearth_scene_prepare_lights(hearth_scene* scene, uint32_t method);
 
 /* ---- Streaming ---- */
 
@@ -617,18 +626,42 @@ typedef struct hearth_shadow_sphere
     uint32_t texels;
 } hearth_shadow_sphere;
 
-/* New state of a light of the pack, from this frame on (1.4); its type stays. All finite. Changes of lights
- * that the scene left out (dropped_lights) have no effect. */
+/* Type of a light (1.8). */
+enum
+{
+    HEARTH_LIGHT_SAME = 0, /* as the slot has it */
+    HEARTH_LIGHT_SUN = 1,
+    HEARTH_LIGHT_POINT = 2,
+    HEARTH_LIGHT_SPOT = 3
+};
+
+/* New state of a slot's light, from this frame on (1.4): a light of the pack, or one of the game (1.8), which
+ * casts no shadow. All finite. Changes of lights that the scene left out (dropped_lights) have no effect. */
 typedef struct hearth_light_change
 {
-    uint32_t light;
+    uint32_t light; /* slot: index in the pack, or behind, below hearth_scene_options.max_lights */
     float world_from_light[3][4]; /* rows; the light shines along -z */
     float color[3];               /* linear */
-    float intensity;              /* candela; lux of a sun; 0: off */
-    float range;                  /* metres; 0: unlimited */
+    float intensity;              /* candela; lux of a sun; 0: off, which also frees a slot */
+    float range;                  /* metres; 0: unlimited: every pixel evaluates such a light */
     float inner_cone_rad;         /* of a spot */
     float outer_cone_rad;
+    uint32_t type; /* since 1.8: HEARTH_LIGHT_*; a light of another type than the pack's casts no shadow */
 } hearth_light_change;
+
+/* Lights that a pixel evaluates (1.8). The images are the same. */
+enum
+{
+    HEARTH_LIGHTS_PRACTICAL = 0, /* those that reach its cell of a grid over the view */
+    HEARTH_LIGHTS_ALL = 1
+};
+
+/* Processor that lists the lights of cells (1.8). The lists are the same. */
+enum
+{
+    HEARTH_LIGHT_LISTS_GPU = 0,
+    HEARTH_LIGHT_LISTS_CPU = 1
+};
 
 /* Factor on the emission of the brick faces inside a box of the world, relative to the pack (1.4). */
 typedef struct hearth_emission_scale
@@ -684,6 +717,9 @@ typedef struct hearth_frame
     float filter_density;         /* 0: no filter, to 1 */
     float bloom_strength;         /* 0: no bloom, to 1: share of the light that spreads */
     uint32_t bloom_mode;          /* HEARTH_BLOOM_* */
+    uint32_t
+        light_method; /* HEARTH_LIGHTS_*; all but the first are prepared before: hearth_scene_prepare_lights */
+    uint32_t light_lists; /* HEARTH_LIGHT_LISTS_* */
 } hearth_frame;
 
 #define HEARTH_FRAME_INIT                                                                                    \
@@ -691,7 +727,7 @@ typedef struct hearth_frame
         sizeof(hearth_frame), HEARTH_CULL_EVERYTHING, {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 0.8f, 0.01f}, 1,    \
             NULL, 0, 0, NULL, HEARTH_VIEW_FINAL, 1, HEARTH_SHADE_AUTOMATIC, 0, NULL, VK_NULL_HANDLE, NULL,   \
             0, HEARTH_AMBIENT_OCCLUSION_EXACT, HEARTH_SPECULAR_OCCLUSION_FIT, 0, NULL, NULL, 0, 0, 0, 0, 0,  \
-            0.18f, 1, 0, {1, 1, 1}, 0, 0, HEARTH_BLOOM_MIX                                                   \
+            0.18f, 1, 0, {1, 1, 1}, 0, 0, HEARTH_BLOOM_MIX, HEARTH_LIGHTS_PRACTICAL, HEARTH_LIGHT_LISTS_GPU  \
     }
 
 /* ---- Tables of a pack (1.6), on any thread ----

@@ -270,6 +270,10 @@ public:
     {
         return hearth_scene_get_stream_counters(get(), &counters);
     }
+    [[nodiscard]] hearth_result prepareLights(uint32_t method) const
+    {
+        return hearth_scene_prepare_lights(get(), method);
+    }
     [[nodiscard]] hearth_result getShadowCounters(hearth_shadow_counters& counters) const
     {
         return hearth_scene_get_shadow_counters(get(), &counters);

@@ -20,7 +20,12 @@ Status makeLights(hearth_scene& scene, const hearth_frame& frame)
         if (change.light >= capacity && change.light - capacity < scene.scene->dropped_lights)
             continue;
         formats::LightRecord record{};
-        if (change.light < lights.size())
+        if (change.type > HEARTH_LIGHT_SPOT)
+            return usage("light " + std::to_string(change.light) +
+                         " has a type that this version does not know");
+        if (change.type != HEARTH_LIGHT_SAME)
+            record.type = change.type - HEARTH_LIGHT_SUN;
+        else if (change.light < lights.size())
             record.type = lights[change.light].type;
         static_assert(sizeof(record.world_from_light.m) == sizeof(change.world_from_light));
         std::copy_n(&change.world_from_light[0][0], 12, &record.world_from_light.m[0][0]);

@@ -38,6 +38,8 @@ Status check(const hearth_scene_options* options)
         return usage("max_visible_clusters is not from 1 to " + std::to_string(shared::kMaxSlots));
     if (options->frames_in_flight < 1 || options->frames_in_flight > gpu::kMaxFramesInFlight)
         return usage("frames_in_flight is not from 1 to " + std::to_string(gpu::kMaxFramesInFlight));
+    if (options->max_lights > shared::kMaxLights || options->reserved != 0)
+        return usage("max_lights is above " + std::to_string(shared::kMaxLights) + ", or reserved is not 0");
     if (options->geometry_budget == 0)
         return success();
     if (options->read == nullptr)
@@ -58,6 +60,7 @@ Result<gpu::SceneOptions> toOptions(const hearth_scene_options& options)
                          { read(user, page, destination.data(), destination.size(), toC(done)); },
                          .max_loads = options.max_loads};
     result.deformation.scratch_bytes = options.skinning_bytes;
+    result.max_lights = options.max_lights;
     HEARTH_ASSIGN_OR_RETURN(result.shadows, shadowOptions(options.shadows));
     return result;
 }
@@ -116,6 +119,22 @@ hearth_result hearth_scene_upload(hearth_renderer* renderer, hearth_pack* pack, 
                     ++renderer->scene_count;
                     ++pack->scene_count;
                     *scene = made.release();
+                    return success();
+                });
+}
+
+hearth_result hearth_scene_prepare_lights(hearth_scene* scene, uint32_t method)
+{
+    if (scene == nullptr)
+        return HEARTH_ERROR_USAGE;
+    return call(scene->renderer->message(), __func__,
+                [&]() -> Status
+                {
+                    if (method >= gpu::kLightMethodCount)
+                        return usage("method is unknown to this version");
+                    HEARTH_TRY(scene->renderer->renderer->prepareLightMethod(
+                        *scene->scene, static_cast<gpu::LightMethod>(method)));
+                    scene->prepared_lights |= 1u << method;
                     return success();
                 });
 }

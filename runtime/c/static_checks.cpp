@@ -38,6 +38,24 @@ static_assert(equal(HEARTH_SHADE_AUTOMATIC, gpu::ShadedArea::automatic));
 static_assert(equal(HEARTH_SHADE_WHOLE_FRAME, gpu::ShadedArea::wholeFrame));
 static_assert(equal(HEARTH_SHADE_TILES, gpu::ShadedArea::tiles));
 
+static_assert(HEARTH_LIGHT_SUN == shared::kLightDirectional + 1);
+static_assert(HEARTH_LIGHT_POINT == shared::kLightPoint + 1);
+static_assert(HEARTH_LIGHT_SPOT == shared::kLightSpot + 1);
+
+constexpr bool equal(int c, gpu::LightMethod method)
+{
+    return c == static_cast<int>(method);
+}
+static_assert(equal(HEARTH_LIGHTS_PRACTICAL, gpu::LightMethod::practical));
+static_assert(equal(HEARTH_LIGHTS_ALL, gpu::LightMethod::all));
+
+constexpr bool equal(int c, gpu::LightLister lister)
+{
+    return c == static_cast<int>(lister);
+}
+static_assert(equal(HEARTH_LIGHT_LISTS_GPU, gpu::LightLister::gpu));
+static_assert(equal(HEARTH_LIGHT_LISTS_CPU, gpu::LightLister::cpu));
+
 constexpr bool equal(int c, gpu::FrameTimestamp timestamp)
 {
     return c == static_cast<int>(timestamp);
@@ -90,6 +108,7 @@ constexpr hearth_scene_options kSceneDefaults = HEARTH_SCENE_OPTIONS_INIT;
 static_assert(kSceneDefaults.max_visible_clusters == (1u << 22) && kSceneDefaults.max_loads == 32 &&
               kSceneDefaults.frames_in_flight == 3 &&
               kSceneDefaults.skinning_bytes == gpu::DeformationOptions{}.scratch_bytes &&
+              kSceneDefaults.max_lights == 128 &&
               kSceneDefaults.shadows.depth_bits == gpu::depthBits(gpu::ShadowOptions{}.depth));
 
 } // namespace

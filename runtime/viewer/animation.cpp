@@ -122,7 +122,7 @@ Status FrameLights::add(const pack::LightPlayer& player, const gpu::Scene& scene
 {
     for (const pack::PlayedLight& played : is_first_ ? player.lights() : player.changed())
     {
-        if (played.light >= scene.lights.size())
+        if (played.light >= scene.lights->lights().size())
             break;
         HEARTH_ASSIGN_OR_RETURN(const gpu::LightChange change,
                                 gpu::changeLight(scene, played.light, played.record));

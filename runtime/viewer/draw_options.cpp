@@ -131,28 +131,6 @@ std::string lightMethodsHelp()
     return text;
 }
 
-Status parseLightMethod(std::string_view text, FrameSettings& settings)
-{
-    const std::optional<gpu::LightMethod> method = gpu::findLightMethod(text);
-    if (!method)
-    {
-        std::string names;
-        for (const gpu::LightMethodFacts& facts : gpu::kLightMethods)
-            names += (names.empty() ? "" : ", ") + std::string(facts.name);
-        return usageError("--lights: " + quoted(text) + " is none of " + names);
-    }
-    settings.light_method = *method;
-    return success();
-}
-
-Status parseLightLister(std::string_view text, FrameSettings& settings)
-{
-    if (text != "gpu" && text != "cpu")
-        return usageError("--light-lists: " + quoted(text) + " is neither gpu nor cpu");
-    settings.light_lister = text == "cpu" ? gpu::LightLister::cpu : gpu::LightLister::gpu;
-    return success();
-}
-
 /// Join names: "a, b, c".
 template <typename T>
 std::string list(std::span<const Named<T>> choices)
@@ -412,9 +390,12 @@ void addDrawOptions(CommandLine& command_line, DrawOptions& options)
                           });
     command_line.addValue("--gi", [&](std::string_view text) { return parseGi(text, settings); });
     command_line.addValue("--lights",
-                          [&](std::string_view text) { return parseLightMethod(text, settings); });
-    command_line.addValue("--light-lists",
-                          [&](std::string_view text) { return parseLightLister(text, settings); });
+                          [&](std::string_view text) {
+                              return parseChoice("--lights", lightMethodNames(), text, settings.light_method);
+                          });
+    command_line.addValue(
+        "--light-lists", [&](std::string_view text)
+        { return parseChoice("--light-lists", lightListerNames(), text, settings.light_lister); });
     command_line.addValue(
         "--shaded-area", [&](std::string_view text)
         { return parseChoice("--shaded-area", shadedAreaNames(), text, settings.shaded_area); });

@@ -47,6 +47,25 @@ std::span<const Named<gpu::MaterialTest>> materialTestNames()
     return kTests;
 }
 
+std::span<const Named<gpu::LightMethod>> lightMethodNames()
+{
+    static constexpr auto kMethods = []
+    {
+        std::array<Named<gpu::LightMethod>, gpu::kLightMethodCount> methods{};
+        for (size_t i = 0; i < methods.size(); ++i)
+            methods[i] = {gpu::kLightMethods[i].name, static_cast<gpu::LightMethod>(i)};
+        return methods;
+    }();
+    return kMethods;
+}
+
+std::span<const Named<gpu::LightLister>> lightListerNames()
+{
+    static constexpr Named<gpu::LightLister> kListers[] = {{"gpu", gpu::LightLister::gpu},
+                                                           {"cpu", gpu::LightLister::cpu}};
+    return kListers;
+}
+
 std::span<const Named<uint32_t>> ambientOcclusionNames()
 {
     static constexpr Named<uint32_t> kModes[] = {{"exact", shared::kAmbientOcclusionExact},

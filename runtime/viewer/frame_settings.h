@@ -47,6 +47,9 @@ std::span<const Named<gpu::ShadedArea>> shadedAreaNames();
 /// Return the ways through a frame, the automatic choice first.
 std::span<const Named<std::optional<gpu::FrameWay>>> frameWayNames();
 std::span<const Named<gpu::MaterialTest>> materialTestNames();
+/// Return all light methods, the default first.
+std::span<const Named<gpu::LightMethod>> lightMethodNames();
+std::span<const Named<gpu::LightLister>> lightListerNames();
 std::span<const Named<uint32_t>> ambientOcclusionNames();
 std::span<const Named<uint32_t>> specularOcclusionNames();
 /// Return the culling tests, one per flag.

@@ -177,7 +177,7 @@ struct Animation
 {
     std::string name;
     std::vector<Track> tracks;
-    std::vector<LightTrack> light_tracks;
+    std::vector<LightTrack> light_tracks{};
 };
 
 struct Document

@@ -407,7 +407,7 @@ void printTraffic()
                                 .materials = gpu::MaterialTest::id,
                                 .lists_lights = true});
         const gpu::Traffic traffic = gpu::measureTraffic(frame);
-        std::printf("  %-18s %6.1f %6.1f\n", method.name.data(), traffic.low, traffic.high);
+        std::printf("  %-18s %6.1f %6.1f\n", method.name, traffic.low, traffic.high);
     }
 }
 

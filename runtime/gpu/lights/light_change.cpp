@@ -41,13 +41,13 @@ Result<LightChange> changeLight(const Scene& scene, uint32_t light, const format
     LightChange change{.light = light, .record = shared::lightFromRecord(record)};
     change.record.intensity = change.record.intensity * scene.lights->exposure();
     change.record.shadow_row = shared::kNoShadow;
-    if (light >= scene.lights->lights().size())
+    if (light >= scene.lights->loaded().size())
         return change;
-    const shared::Light& before = scene.lights->lights()[light];
-    if (before.type == record.type)
-        change.record.shadow_row = before.shadow_row;
-    if (change.record.position == before.position)
-        shared::copyReflector(change.record, before);
+    const shared::Light& loaded = scene.lights->loaded()[light];
+    if (loaded.type == record.type)
+        change.record.shadow_row = loaded.shadow_row;
+    if (change.record.position == loaded.position)
+        shared::copyReflector(change.record, loaded);
     return change;
 }
 

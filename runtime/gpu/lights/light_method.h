@@ -5,8 +5,7 @@
 #include "formats/gpu_shared/specialization.h"
 
 #include <cstdint>
-#include <optional>
-#include <string_view>
+#include <iterator>
 
 namespace hearth::gpu
 {
@@ -21,8 +20,8 @@ inline constexpr size_t kLightMethodCount = static_cast<size_t>(LightMethod::cou
 
 struct LightMethodFacts
 {
-    std::string_view name;
-    std::string_view summary;
+    const char* name; ///< of --lights
+    const char* summary;
     uint32_t light_list; ///< shared::kLightList*: lights that a pixel evaluates
 };
 
@@ -37,15 +36,6 @@ static_assert(std::size(kLightMethods) == kLightMethodCount);
 constexpr const LightMethodFacts& lightMethodFacts(LightMethod method)
 {
     return kLightMethods[static_cast<size_t>(method)];
-}
-
-/// Find a method by its name.
-constexpr std::optional<LightMethod> findLightMethod(std::string_view name)
-{
-    for (size_t i = 0; i < kLightMethodCount; ++i)
-        if (kLightMethods[i].name == name)
-            return static_cast<LightMethod>(i);
-    return std::nullopt;
 }
 
 } // namespace hearth::gpu

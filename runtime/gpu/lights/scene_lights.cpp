@@ -37,7 +37,7 @@ LightBufferLayout LightBufferLayout::make(uint32_t capacity, uint64_t surroundin
 }
 
 SceneLights::SceneLights(const LightBufferLayout& layout, shared::SceneLighting lighting)
-    : layout_(layout), lighting_(std::move(lighting))
+    : layout_(layout), lighting_(std::move(lighting)), loaded_(lighting_.lights)
 {
     HEARTH_ASSERT(lighting_.lights.size() <= layout_.capacity);
     head_.sky_zenith = lighting_.sky.zenith;

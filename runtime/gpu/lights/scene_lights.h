@@ -49,6 +49,8 @@ public:
     /// Slots of lights up to the last that was ever used. An empty slot has a light that is off.
     std::span<const shared::Light> lights() const { return lighting_.lights; }
     float exposure() const { return lighting_.exposure; }
+    /// Lights of the pack as loaded, in the first slots.
+    std::span<const shared::Light> loaded() const { return loaded_; }
 
     /// Set the content of the table, with the rows of surroundings behind the lights.
     /// transfer_rows  of `surroundings`, before those of instances; all of them if the scene has none
@@ -75,6 +77,7 @@ private:
 
     LightBufferLayout layout_;
     shared::SceneLighting lighting_;
+    std::vector<shared::Light> loaded_;
     shared::Lighting head_{};
     shared::LightLists lists_;
 };

@@ -47,7 +47,11 @@ void MirroredTable::write(VkDeviceSize offset, std::span<const std::byte> bytes)
     std::memcpy(table_.data() + offset, bytes.data(), bytes.size());
     for (Copy& copy : copies_)
     {
-        if (copy.stale.size() < kMaxStaleRanges)
+        const bool continues =
+            !copy.stale.empty() && copy.stale.back().offset + copy.stale.back().size == offset;
+        if (continues)
+            copy.stale.back().size += bytes.size();
+        else if (copy.stale.size() < kMaxStaleRanges)
             copy.stale.push_back({offset, bytes.size()});
         else
             copy.stale.assign(1, {0, table_.size()});

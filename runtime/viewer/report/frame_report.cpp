@@ -173,7 +173,7 @@ std::string formatLights(const LightCounts& lights)
 {
     const shared::LightListCounts& c = lights.counts;
     const auto join = [](uint32_t low, uint32_t high) { return std::to_string(uint64_t{high} << 32 | low); };
-    return "{\"method\":" + quotedJson(std::string(gpu::lightMethodFacts(lights.method).name)) +
+    return "{\"method\":" + quotedJson(gpu::lightMethodFacts(lights.method).name) +
            ",\"unranged\":" + std::to_string(c.unranged) + ",\"ranged\":" + std::to_string(c.ranged) +
            ",\"cells\":" + std::to_string(c.cells) + ",\"indices\":" + std::to_string(c.indices) +
            ",\"overflows\":" + std::to_string(c.overflows) + ",\"pixels\":" + std::to_string(c.pixels) +

@@ -185,6 +185,8 @@ void Panel::buildImage(FrameSettings& settings, const gpu::Scene& scene)
     ImGui::SliderFloat("Error, pixels", &settings.error_pixels, 0, kMaxError, "%.2f",
                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     chooseNamed("Shaded area", shadedAreaNames(), settings.shaded_area);
+    chooseNamed("Lights", lightMethodNames(), settings.light_method);
+    chooseNamed("Lists of lights", lightListerNames(), settings.light_lister);
     if (gpu::hasSkyVisibility(scene))
     {
         chooseNamed("Ambient occlusion", ambientOcclusionNames(), settings.ambient_occlusion);

@@ -194,6 +194,38 @@ TEST_F(CPoseTest, aPlayerLightsWhatFlickersAndMoves)
     (void)pack.release();
 }
 
+TEST_F(CPoseTest, gamesAddLightsOfTheirOwn)
+{
+    TestScene test;
+    test.addInstance(test.addMesh(withMaterial(shapes::rock(8, 0.3f), kInvalidIndex)), Affine3{});
+    test.addLight(light(formats::LightType::directional, {}, {0, -1, 0}, 0.1f));
+    const formats::PackView view = test.build();
+    const AlignedBytes bytes = test.model().bytes();
+    open(view, bytes);
+    hearth_frame frame = makeFrame();
+    (void)drawInC(frame);
+    const std::vector<uint32_t> dark = color_;
+    hearth_light_change lamp{};
+    lamp.light = 100; // the pack has one
+    lamp.type = HEARTH_LIGHT_POINT;
+    for (int axis = 0; axis < 3; ++axis)
+        lamp.world_from_light[axis][axis] = 1;
+    lamp.world_from_light[1][3] = 2;
+    lamp.color[0] = 1;
+    lamp.intensity = 3;
+    lamp.range = 5;
+    frame.lights = &lamp, frame.light_count = 1;
+    (void)drawInC(frame);
+    const std::vector<uint32_t> lit = color_;
+    EXPECT_NE(lit, dark);
+    frame.light_lists = HEARTH_LIGHT_LISTS_CPU;
+    (void)drawInC(frame);
+    EXPECT_EQ(color_, lit);
+    lamp.intensity = 0;
+    (void)drawInC(frame);
+    EXPECT_EQ(color_, dark);
+}
+
 TEST_F(CPoseTest, changesOfLightsThatAreNotDrawnHaveNoEffect)
 {
     TestScene test;

@@ -190,6 +190,7 @@ TEST_F(CApiTest, nullArgumentsAreRefused)
     EXPECT_EQ(hearth_targets_get_info(nullptr, nullptr), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_scene_upload(renderer_, nullptr, nullptr, nullptr, &scene), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_scene_release_staging(nullptr), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_scene_prepare_lights(nullptr, HEARTH_LIGHTS_ALL), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_scene_get_info(nullptr, nullptr), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_scene_begin_frame(nullptr, 1, 0), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_scene_get_stream_counters(nullptr, nullptr), HEARTH_ERROR_USAGE);
@@ -259,6 +260,8 @@ TEST_F(CFrameRulesTest, framesThatBreakRulesAreRefused)
     const hearth_shadow_sphere flat{.center = {0, 0, 0}, .radius = 0, .light = 0, .texels = 0};
     hearth_light_change no_light{};
     no_light.light = 1000;
+    hearth_light_change no_type{};
+    no_type.type = 4;
     const hearth_emission_scale negative{.box_min = {0, 0, 0}, .box_max = {1, 1, 1}, .factor = -1};
     const hearth_move nowhere{1000, {}};
     const auto refused = [&](const auto& change)
@@ -275,9 +278,12 @@ TEST_F(CFrameRulesTest, framesThatBreakRulesAreRefused)
     EXPECT_THAT(refused([](F& f) { f.error_pixels = -1; }), HasSubstr("error_pixels"));
     EXPECT_THAT(refused([](F& f) { f.depth_scale = kNan; }), HasSubstr("depth_scale"));
     EXPECT_THAT(refused([](F& f) { f.cull_flags = 16; }), HasSubstr("cull_flags"));
-    EXPECT_THAT(refused([](F& f) { f.debug_view = 19; }), HasSubstr("debug_view"));
+    EXPECT_THAT(refused([](F& f) { f.debug_view = 21; }), HasSubstr("debug_view"));
     EXPECT_THAT(refused([](F& f) { f.debug_view = HEARTH_VIEW_GI; }), HasSubstr("has bricks"));
     EXPECT_THAT(refused([](F& f) { f.constant_sky = 2; }), HasSubstr("constant_sky"));
+    EXPECT_THAT(refused([](F& f) { f.light_lists = 2; }), HasSubstr("light_lists"));
+    EXPECT_THAT(refused([](F& f) { f.light_method = 99; }), HasSubstr("light_method"));
+    EXPECT_THAT(refused([](F& f) { f.light_method = HEARTH_LIGHTS_ALL; }), HasSubstr("prepare_lights"));
     EXPECT_THAT(refused([](F& f) { f.exposure_stops = kNan; }), HasSubstr("exposure_stops"));
     EXPECT_THAT(refused([](F& f) { f.exposure_stops = 1; }), HasSubstr("HEARTH_FEATURE_GRADING"));
     EXPECT_THAT(refused([](F& f) { f.exposure_key = 0; }), HasSubstr("exposure_key"));
@@ -295,6 +301,7 @@ TEST_F(CFrameRulesTest, framesThatBreakRulesAreRefused)
     EXPECT_THAT(refused([](F& f) { f.shadow_sphere_count = 1; }), HasSubstr("shadow_spheres is NULL"));
     EXPECT_THAT(refused([](F& f) { f.light_count = 1; }), HasSubstr("lights is NULL"));
     EXPECT_THAT(refused([&](F& f) { f.lights = &no_light, f.light_count = 1; }), HasSubstr("light 1000"));
+    EXPECT_THAT(refused([&](F& f) { f.lights = &no_type, f.light_count = 1; }), HasSubstr("type"));
     EXPECT_THAT(refused([](F& f) { f.emission_count = 1; }), HasSubstr("emissions is NULL"));
     EXPECT_THAT(refused([&](F& f) { f.emissions = &negative, f.emission_count = 1; }),
                 HasSubstr("emission 0"));

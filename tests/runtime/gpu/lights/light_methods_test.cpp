@@ -8,6 +8,7 @@
 #include "tests/support/shapes.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <numbers>
 
 namespace hearth::test
@@ -241,6 +242,46 @@ TEST_F(LightMethodsTest, drawLightsThatFramesAddChangeAndRemove)
             all.push_back(gpu::changeLight(*fresh, slot, now[slot]).value());
         EXPECT_EQ(draw(*fresh, kOverview, {.lights = all}).color, image.color) << frame;
     }
+}
+
+/// HEARTH_TEST_LIGHT_FRAMES: more frames than the few of a test run.
+TEST_F(LightMethodsTest, thousandsOfLightsMayAllChangeInEachFrame)
+{
+    constexpr uint32_t kLights = shared::kMaxLights;
+    const char* const more = std::getenv("HEARTH_TEST_LIGHT_FRAMES");
+    const int frames = more == nullptr ? 12 : std::atoi(more);
+    addGround();
+    load({.max_lights = kLights});
+    gpu::FrameTargets targets = makeTargets(128, 72);
+    const VkDeviceSize bytes = scene_->arena.allocatedBytes();
+    shared::LightLists twin;
+    std::vector<shared::Light> lights(kLights);
+    std::vector<gpu::LightChange> changes(kLights);
+    for (int frame = 0; frame < frames; ++frame)
+    {
+        for (uint32_t slot = 0; slot < kLights; ++slot)
+        {
+            LightRecord record = randomLight(random_, 2);
+            if (random_() % 4 == 0)
+                record.intensity = 0;
+            changes[slot] = gpu::changeLight(*scene_, slot, record).value();
+            lights[slot] = changes[slot].record;
+        }
+        draw(*scene_, targets, kOverview, {.width = 128, .height = 72, .lights = changes});
+        const shared::LightGridLayout grid = shared::makeLightGrid(
+            shared::lightGridView(makeView(*scene_, kOverview, {.width = 128, .height = 72})));
+        shared::LightListCounts counts;
+        std::vector<uint32_t> rows(kLights), cells(shared::kMaxLightCells), indices(64u * 1024);
+        twin.assign(grid, lights, {&counts, rows, cells, indices});
+        std::vector<uint32_t> expected(shared::kLightCountWords);
+        std::memcpy(expected.data(), &counts, sizeof(counts));
+        expected.insert(expected.end(), rows.begin(), rows.begin() + counts.ranged);
+        expected.insert(expected.end(), cells.begin(), cells.begin() + grid.grid.cell_count);
+        if (counts.overflows == 0)
+            expected.insert(expected.end(), indices.begin(), indices.begin() + counts.index_words);
+        ASSERT_EQ(lists(), expected) << "frame " << frame;
+    }
+    EXPECT_EQ(scene_->arena.allocatedBytes(), bytes);
 }
 
 TEST_F(LightMethodsTest, statisticsCountWhatPixelsEvaluate)
