@@ -64,7 +64,7 @@ double secondsSince(std::chrono::steady_clock::time_point start)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-Result<LightCurve::Size> measureSize(const bricks::StaticScene& scene, const shared::Lighting& lighting,
+Result<LightCurve::Size> measureSize(const bricks::StaticScene& scene, const shared::SceneLighting& lighting,
                                      const std::vector<LitPoint>& points, double voxel_size,
                                      uint32_t gather_rays)
 {
@@ -179,7 +179,7 @@ Result<LightCurve> measureScene(const std::string& prefix, const Arguments& argu
         getName(prefix).c_str(), points.size(), static_cast<size_t>(near_lamps), kNearLamp,
         secondsSince(start), 100 * pathNoise(points));
     LightCurve curve{getName(prefix), {}};
-    const shared::Lighting lighting = sharedLighting(shaded.lighting());
+    const shared::SceneLighting lighting = sharedLighting(shaded.lighting());
     for (const double voxel_size : arguments.sizes)
     {
         HEARTH_ASSIGN_OR_RETURN(const LightCurve::Size size,

@@ -268,7 +268,7 @@ public:
             .shadows = shadows_,
             .skinning = skinning_,
             .bricks = scene_.bricks == nullptr ? std::nullopt : std::optional(countBricks(scene_, targets_)),
-            .lights = lights_,
+            .lights = light_counts_,
             .milliseconds = medianPassTimes(times_)};
         const std::string text = formatReport(report, pack_);
         return writeFile(options_.stats, std::as_bytes(std::span(text)));
@@ -351,7 +351,7 @@ private:
                 pass.record(device, commands, scene_, targets_, settings_.light_method);
                 return success();
             }));
-        lights_ = {settings_.light_method, gpu::readLightCounts(scene_)};
+        light_counts_ = {settings_.light_method, gpu::readLightCounts(scene_)};
         return success();
     }
 
@@ -398,7 +398,7 @@ private:
     std::vector<StreamCounts> streaming_;
     std::vector<ShadowCounts> shadows_;
     std::optional<SkinningCounts> skinning_;
-    LightCounts lights_;
+    LightCounts light_counts_;
     uint64_t serial_ = 0;    ///< of the last frame
     size_t last_number_ = 0; ///< of its image
 };
