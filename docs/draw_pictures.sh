@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Draws the pictures of README and docs, from samples alone. ./dev pictures builds what it needs and calls it.
 # Plots of benchmarks are taken from build/bench, where a benchmark has left them.
-#   docs/draw_pictures.sh [NAME...]    demo, walk, levels, occlusion, bricks, shadows, view, report, bench, plots
+#   docs/draw_pictures.sh [NAME...]    demo, walk, levels, occlusion, bricks, shadows, lights, view, report, bench, plots
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 bin=build/release/bin
@@ -70,6 +70,13 @@ draw_shadows() {
   beside shadows 1124 "$work/shadows-final.png" "$work/shadows-shadow-maps.png"
 }
 
+draw_lights() {
+  "$bin/hearth-samples" market --lights 1024 -o "$work/market.glb"
+  "$bin/hearth" cook "$work/market.glb" -o "$work/market.hearth" -q
+  draw lights market --scene-camera 0 --size 1120x630 --samples 4 --animation evening --time 3 --views final,light-count
+  beside lights 1124 "$work/lights-final.png" "$work/lights-light-count.png"
+}
+
 # The window with its panel, as a screen shows it.
 draw_view() {
   [[ -f $work/demo.hearth ]] || cooked demo scene --bricks --voxel-size 0.25 --brick-memory 10M
@@ -105,7 +112,7 @@ PLOTS
 }
 
 names=("$@")
-((${#names[@]} > 0)) || names=(demo walk levels occlusion bricks shadows view report bench plots)
+((${#names[@]} > 0)) || names=(demo walk levels occlusion bricks shadows lights view report bench plots)
 for name in "${names[@]}"; do
   "draw_$name"
   echo "drawn: $name"

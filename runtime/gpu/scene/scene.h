@@ -63,7 +63,7 @@ struct SceneBuffers
     // constant except for streaming
     Buffer groups;
     Buffer cluster_draws;  ///< mapped: rows of a page change while no frame draws it
-    Buffer lights_in_view; ///< shared::CellLight of the frame
+    Buffer lights_in_view; ///< shared::CellLight of the frame; frames wait for each other's compute passes
     std::array<Buffer, shared::kPoolSlices> pool;
     // rewritten by every culling phase, and read by compute shaders only
     Buffer states, results, totals;

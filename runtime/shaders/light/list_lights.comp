@@ -53,9 +53,8 @@ void main()
         }
         ranged += total;
     }
-    if (gl_LocalInvocationIndex == 0u)
-    {
-        light_words[lighting.first_list_word + kUnrangedCount] = unranged_count;
-        light_words[lighting.first_list_word + kRangedCount] = ranged;
-    }
+    // passes that follow set the other counts or add to them
+    uint word = gl_LocalInvocationIndex;
+    if (word < kLightCountWords)
+        light_words[lighting.first_list_word + word] = word == kUnrangedCount ? unranged_count : word == kRangedCount ? ranged : 0u;
 }

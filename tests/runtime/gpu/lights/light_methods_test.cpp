@@ -312,6 +312,8 @@ TEST_F(LightMethodsTest, statisticsCountWhatPixelsEvaluate)
     };
     const shared::LightListCounts cells = count(gpu::LightMethod::practical);
     const shared::LightListCounts all = count(gpu::LightMethod::all);
+    const shared::LightListCounts again = count(gpu::LightMethod::practical);
+    EXPECT_EQ(again.evaluated_low, cells.evaluated_low) << "counts begin anew in each frame";
     EXPECT_EQ(all.pixels, kWidth * kHeight);
     EXPECT_EQ(all.evaluated_low, kWidth * kHeight * all.ranged);
     EXPECT_EQ(all.longest, all.ranged);
