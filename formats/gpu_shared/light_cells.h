@@ -1,8 +1,8 @@
-// Decides which cells of a light grid a light reaches. A ball is exact: the part of it between the planes of a
-// slab and of a row is convex, so it covers one interval of columns, whose ends are tangents or lie on those
-// planes. A cone has to meet two such balls, its least one and that of its range, and is tested against seven
-// planes. One source for the shaders and their CPU twin; on IEEE
-// hardware all bits agree. The code uses only + - * / and sqrt, in a fixed order, without contraction.
+// Decides which cells of a light grid a light reaches. A ball is exact: the part of it between the planes
+// of a slab and of a row is convex, so it covers one interval of columns, whose ends are tangents or lie on
+// those planes. A cone has to meet two such balls, its least one and that of its range, and is tested
+// against seven planes. One source for the shaders and their CPU twin; on IEEE hardware all bits agree. The
+// code uses only + - * / and sqrt, in a fixed order, without contraction.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_LIGHT_CELLS_H
 #define HEARTH_SHARED_LIGHT_CELLS_H
@@ -29,9 +29,9 @@ struct CellLight
     uint slabs;  ///< first slab that it reaches, the last one << 16
 };
 
-/// Metres by which balls and cones grow. It covers three things: a shaded point lies up to 1/64 of a pixel off
-/// the ray of its pixel, its depth may round into the next slab, and the tests round.
-/// extent  distance of the farthest lit point from the eye
+/// Metres by which balls and cones grow. It covers three things: a shaded point lies up to 1/64 of a pixel
+/// off the ray of its pixel, its depth may round into the next slab, and the tests round. extent distance
+/// of the farthest lit point from the eye
 HEARTH_FUNCTION float lightSlack(HEARTH_IN(LightGrid) grid, float extent)
 {
     HEARTH_PRECISE float slack = extent * grid.slack_share + grid.slack_size;
@@ -50,8 +50,8 @@ HEARTH_FUNCTION bool isLightOff(HEARTH_IN(Light) light)
 }
 
 /// Bring a light with a range to view space. The least ball of a cone with half-angle t and range r has its
-/// centre on the axis: at r / (2 cos t) with that radius up to 45 degrees, else at r cos t with r sin t. A spot
-/// with a reflector lights its whole ball, and so does a cone above 90 degrees.
+/// centre on the axis: at r / (2 cos t) with that radius up to 45 degrees, else at r cos t with r sin t. A
+/// spot with a reflector lights its whole ball, and so does a cone above 90 degrees.
 HEARTH_FUNCTION CellLight makeCellLight(HEARTH_IN(LightGrid) grid, HEARTH_IN(Light) light, uint row)
 {
     HEARTH_PRECISE Float3 offset = light.position - grid.eye;
@@ -99,9 +99,9 @@ HEARTH_FUNCTION float lightPlaneScale(HEARTH_IN(LightGrid) grid, float depth)
     return grid.is_orthographic != 0u ? 1.0f : depth;
 }
 
-/// True if a ball is partly on the inner side of a plane through the eye, or along the view of an orthographic
-/// one: coordinate - edge * scale >= 0.
-/// side  1: greater coordinates are inside; -1: smaller ones
+/// True if a ball is partly on the inner side of a plane through the eye, or along the view of an
+/// orthographic one: coordinate - edge * scale >= 0. side 1: greater coordinates are inside; -1: smaller
+/// ones
 HEARTH_FUNCTION bool isBallInside(float coordinate, float scale, float edge, float edge_length, float side,
                                   float radius)
 {
@@ -347,8 +347,8 @@ struct LightColumns
     int last;
 };
 
-HEARTH_FUNCTION LightColumns columnsOfSpan(HEARTH_IN(LightGrid) grid, HEARTH_IN(LightCascade) cascade,
-                                           LightSpan span)
+HEARTH_FUNCTION LightColumns spanColumns(HEARTH_IN(LightGrid) grid, HEARTH_IN(LightCascade) cascade,
+                                         LightSpan span)
 {
     HEARTH_PRECISE float low = (span.low - grid.edges.x) * cascade.columns_per_u;
     HEARTH_PRECISE float high = (span.high - grid.edges.x) * cascade.columns_per_u;
@@ -359,8 +359,8 @@ HEARTH_FUNCTION LightColumns columnsOfSpan(HEARTH_IN(LightGrid) grid, HEARTH_IN(
     return covered;
 }
 
-/// Return the light of a cone with the ball of its range around the apex in place of the least ball. The least
-/// ball of a narrow cone reaches beyond that range, and cells have to meet both.
+/// Return the light of a cone with the ball of its range around the apex in place of the least ball. The
+/// least ball of a narrow cone reaches beyond that range, and cells have to meet both.
 HEARTH_FUNCTION CellLight rangeBall(CellLight light)
 {
     HEARTH_PRECISE float radius = light.range + light.slack;
@@ -388,7 +388,7 @@ HEARTH_FUNCTION LightColumns ballColumns(HEARTH_IN(LightGrid) grid, HEARTH_IN(Li
     span = addTangents(span, lightEdgeTangents(grid, light, ball, row.begin), slab);
     span = addTangents(span, lightEdgeTangents(grid, light, ball, row.end), slab);
     span = addTangents(span, tangentsInRow(grid, light, lightBallTangents(grid, light, ball), row), slab);
-    return columnsOfSpan(grid, cascade, span);
+    return spanColumns(grid, cascade, span);
 }
 
 /// Return the columns of a row of a slab that a light's balls reach.

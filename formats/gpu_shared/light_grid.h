@@ -1,6 +1,7 @@
-// Grid of cells over the view, each with a list of the lights that reach it: cascades whose depth doubles, each
-// cut into slabs, rows and columns (N. Billeter et al., "Tiled forward shading", GPU Pro 4, and "Clustered
-// shading" by O. Olsson et al., 2012, with their minimum size of a cell). One source for C++ and GLSL.
+// Grid of cells over the view, each with a list of the lights that reach it: cascades whose depth doubles,
+// each cut into slabs, rows and columns (N. Billeter et al., "Tiled forward shading", GPU Pro 4, and
+// "Clustered shading" by O. Olsson et al., 2012, with their minimum size of a cell). One source for C++ and
+// GLSL.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_LIGHT_GRID_H
 #define HEARTH_SHARED_LIGHT_GRID_H
@@ -38,8 +39,8 @@ struct LightCascade
     uint reserved2;
 };
 
-/// View of the grid, without its cascades. Distances are in metres; view space has x to the right, y down, and
-/// z along the view.
+/// View of the grid, without its cascades. Distances are in metres; view space has x to the right, y down,
+/// and z along the view.
 struct LightGrid
 {
     Float3 right; ///< unit, world, as the next two

@@ -1,4 +1,5 @@
-// Materials and lights as the shading pass reads them: blocks in the layout std140. One source for C++ and GLSL.
+// Materials and lights as the shading pass reads them: blocks in the layout std140. One source for C++ and
+// GLSL.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_SHADING_H
 #define HEARTH_SHARED_SHADING_H
@@ -90,8 +91,9 @@ struct Light
     uint passed3;
 };
 
-/// Head of the buffer of lights. Behind it lie the lights, Light[capacity], rows of surroundings, and the lists
-/// of the frame: LightListCounts, numbers of the lights of the frame, cells and indices (light_grid.h).
+/// Head of the buffer of lights. Behind it lie the lights, Light[capacity], rows of surroundings, and the
+/// lists of the frame: LightListCounts, numbers of the lights of the frame, cells and indices
+/// (light_grid.h).
 struct Lighting
 {
     Float3 sky_zenith; ///< radiance
@@ -99,10 +101,9 @@ struct Lighting
     Float3 sky_horizon;
     float exposure; ///< of emission; the intensities of lights have it already
     Float3 sky_ground;
-    uint
-        surroundings_row; ///< row of 16 bytes of the buffer: first instance (occluder_light.h), or kNoSurroundings
-    uint transfers_row;   ///< row of the first radiance transfer
-    uint first_list_word; ///< word of the buffer at which the lists of the frame begin
+    uint surroundings_row; ///< row of 16 bytes of the buffer: first instance, or kNoSurroundings
+    uint transfers_row;    ///< row of the first radiance transfer
+    uint first_list_word;  ///< word of the buffer at which the lists of the frame begin
     uint first_cell_word;
     uint first_index_word;
     uint index_words; ///< room for indices

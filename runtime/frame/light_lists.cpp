@@ -122,7 +122,7 @@ LightColumns LightLists::BallRows::find(const LightGrid& grid, const LightCascad
     span = addTangents(span, edge_tangents_[number], slab);
     span = addTangents(span, edge_tangents_[number + 1], slab);
     span = addTangents(span, row_tangents_[number], slab);
-    return columnsOfSpan(grid, cascade, span);
+    return spanColumns(grid, cascade, span);
 }
 
 void LightLists::addLight(const LightGridLayout& layout, const CellLight& light, uint16_t place)

@@ -5,12 +5,11 @@
 #pragma once
 
 #include "runtime/gpu/frame/frame_parts.h"
-#include "runtime/gpu/lights/light_change.h"
-#include "runtime/gpu/lights/light_lists_pass.h"
 #include "runtime/gpu/passes/bin_pass.h"
 #include "runtime/gpu/passes/brick_light_pass.h"
 #include "runtime/gpu/passes/cull_pass.h"
 #include "runtime/gpu/passes/gather_pass.h"
+#include "runtime/gpu/passes/light_lists_pass.h"
 #include "runtime/gpu/passes/material_marks_pass.h"
 #include "runtime/gpu/passes/material_tiles_pass.h"
 #include "runtime/gpu/passes/page_request_pass.h"
@@ -22,6 +21,7 @@
 #include "runtime/gpu/passes/word_copy_pass.h"
 #include "runtime/gpu/post/post_pass.h"
 #include "runtime/gpu/scene/instance_motion.h"
+#include "runtime/gpu/scene/light_change.h"
 
 #include <memory>
 #include <optional>
@@ -117,8 +117,8 @@ public:
     Result<std::unique_ptr<Scene>> upload(const formats::PackView& pack, VkCommandBuffer commands,
                                           const SceneOptions& options = {});
 
-    /// Create the pipelines of a scene's materials for a light method. Call before a frame that uses it; upload
-    /// does so for LightMethod::practical. errors: device_failed.
+    /// Create the pipelines of a scene's materials for a light method. Call before a frame that uses it;
+    /// upload does so for LightMethod::practical. errors: device_failed.
     Status prepareLightMethod(Scene& scene, LightMethod method);
 
     /// Create the pipelines of the overdraw view. Call before a frame that shows it. errors: device_failed.

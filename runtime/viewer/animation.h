@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "runtime/gpu/lights/light_change.h"
 #include "runtime/gpu/scene/instance_motion.h"
+#include "runtime/gpu/scene/light_change.h"
 #include "runtime/pack/light_player.h"
 #include "runtime/pack/pose_player.h"
 #include "runtime/viewer/command_line.h"

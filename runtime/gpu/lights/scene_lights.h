@@ -1,5 +1,5 @@
-// Lights of a scene: their slots, and the buffer in which shaders find them, their surroundings, and the lists
-// of the frame (formats/gpu_shared/shading.h, Lighting).
+// Lights of a scene: their slots, and the buffer in which shaders find them, their surroundings, and the
+// lists of the frame (formats/gpu_shared/shading.h, Lighting).
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

@@ -3,10 +3,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "runtime/gpu/lights/light_change.h"
 #include "runtime/gpu/passes/frame_targets.h"
 #include "runtime/gpu/passes/word_copy_pass.h"
 #include "runtime/gpu/scene/instance_motion.h"
+#include "runtime/gpu/scene/light_change.h"
 #include "runtime/gpu/scene/scene.h"
 
 #include <span>

@@ -107,7 +107,8 @@ struct SceneMaterial
 {
     VkDescriptorSet set = VK_NULL_HANDLE;
     ShadingVariant variant;
-    /// [method][1]: of frames with a final pass, if the renderer has them. Empty unless the method is prepared.
+    /// [method][1]: of frames with a final pass, if the renderer has them. Empty unless the method is
+    /// prepared.
     std::array<std::array<ShadingPipelines, 2>, kLightMethodCount> pipelines;
 };
 

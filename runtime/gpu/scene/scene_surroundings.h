@@ -4,6 +4,7 @@
 
 #include "formats/pack/pack_view.h"
 #include "formats/scene/radiance_transfer.h"
+#include "formats/scene/scene_lighting.h"
 #include "runtime/gpu/vulkan/mirrored_table.h"
 
 #include <array>

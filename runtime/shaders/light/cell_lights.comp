@@ -1,5 +1,6 @@
-// Finds the lights of each cell. A workgroup has 8 x 8 cells of a slab: it marks the lights that may meet them,
-// then each thread tests the marked ones for its own cell. Runs twice: to count, and to write the indices.
+// Finds the lights of each cell. A workgroup has 8 x 8 cells of a slab: it marks the lights that may meet
+// them, then each thread tests the marked ones for its own cell. Runs twice: to count, and to write the
+// indices.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require

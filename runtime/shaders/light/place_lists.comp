@@ -1,5 +1,5 @@
-// Gives each cell of the light grid a place for its list, in one workgroup: a prefix sum over the counts. A list
-// that is too long or has no room becomes all lights of the frame.
+// Gives each cell of the light grid a place for its list, in one workgroup: a prefix sum over the counts. A
+// list that is too long or has no room becomes all lights of the frame.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/base/program.h"
 #include "runtime/gpu/frame/frame_text.h"
-#include "runtime/gpu/lights/light_statistics_pass.h"
-#include "runtime/gpu/passes/cull_statistics_pass.h"
+#include "runtime/gpu/statistics/cull_statistics_pass.h"
+#include "runtime/gpu/statistics/light_statistics_pass.h"
 #include "runtime/pack/pack.h"
 #include "runtime/viewer/animation.h"
 #include "runtime/viewer/camera_path.h"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "runtime/gpu/passes/cull_statistics_pass.h"
+#include "runtime/gpu/statistics/cull_statistics_pass.h"
 #include "runtime/viewer/vulkan_host.h"
 #include "runtime/viewer/window/page_loader.h"
 

@@ -24,7 +24,7 @@ inline Vector operator-(Vector a, Vector b)
 {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
-inline double dotOf(Vector a, Vector b)
+inline double dotProduct(Vector a, Vector b)
 {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
@@ -37,12 +37,12 @@ inline Vector widen3(Float3 v)
 inline bool isLit(const shared::Light& light, Vector point, double outer_cone_rad)
 {
     const Vector offset = point - widen3(light.position);
-    const double distance = std::sqrt(dotOf(offset, offset));
+    const double distance = std::sqrt(dotProduct(offset, offset));
     if (distance >= light.range)
         return false;
     if (light.type != shared::kLightSpot || distance == 0)
         return true;
-    return dotOf(offset, widen3(light.direction)) / distance > std::cos(outer_cone_rad);
+    return dotProduct(offset, widen3(light.direction)) / distance > std::cos(outer_cone_rad);
 }
 
 struct LightCase
@@ -93,8 +93,8 @@ public:
         return view;
     }
 
-    /// Depth and place in the image of a point, over all depths alike, now and then on the edge of a cell. The
-    /// place is up to 1/64 of a pixel off.
+    /// Depth and place in the image of a point, over all depths alike, now and then on the edge of a cell.
+    /// The place is up to 1/64 of a pixel off.
     Vector point(const shared::LightGridView& view, const shared::LightGridLayout& layout, Float3& image)
     {
         const double depth = logUniform(view.z_near, 2e4);
@@ -170,7 +170,7 @@ struct ListMemory
     shared::LightListView view() { return {&counts, frame, cells, indices}; }
 
     /// Return the rows of the lights of a cell.
-    std::vector<uint32_t> lightsOf(uint32_t cell) const
+    std::vector<uint32_t> listLights(uint32_t cell) const
     {
         std::vector<uint32_t> rows;
         const uint32_t word = cells[cell];

@@ -85,7 +85,7 @@ TEST(LightLists, missNoLitPoint)
         ASSERT_EQ(memory.counts.overflows, 0u);
         for (const auto& [point, image] : points)
         {
-            const std::vector<uint32_t> rows = memory.lightsOf(cellAt(layout, image));
+            const std::vector<uint32_t> rows = memory.listLights(cellAt(layout, image));
             ASSERT_TRUE(std::is_sorted(rows.begin(), rows.end()));
             for (uint32_t row = 0; row < lights.size(); ++row)
                 if (isLit(lights[row].light, point, lights[row].outer_cone_rad))
@@ -141,7 +141,7 @@ TEST(LightLists, equalTheTestOfEachCell)
                                                               edges.begin, edges.end});
                             const uint32_t cell =
                                 cascade.first_cell + (number * cascade.rows + r) * cascade.columns + c;
-                            ASSERT_EQ(contains(memory.lightsOf(cell), row), reaches)
+                            ASSERT_EQ(contains(memory.listLights(cell), row), reaches)
                                 << "view " << v << " light " << row << " cell " << cell;
                         }
                     }
@@ -176,8 +176,8 @@ TEST(LightLists, fallBackToAllLightsWhereTheyAreFull)
     EXPECT_EQ(few.counts.indices, all.counts.indices);
     for (uint32_t cell = 0; cell < layout.grid.cell_count; ++cell)
     {
-        const std::vector<uint32_t> listed = few.lightsOf(cell);
-        for (const uint32_t row : all.lightsOf(cell))
+        const std::vector<uint32_t> listed = few.listLights(cell);
+        for (const uint32_t row : all.listLights(cell))
             EXPECT_TRUE(contains(listed, row));
     }
 }

@@ -1,6 +1,6 @@
 // Tests the culling passes against their C++ twin: every bit of every buffer.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/gpu/passes/cull_statistics_pass.h"
+#include "runtime/gpu/statistics/cull_statistics_pass.h"
 #include "tests/runtime/gpu/cull_twin.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/shapes.h"

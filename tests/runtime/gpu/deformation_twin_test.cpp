@@ -1,7 +1,7 @@
 // Tests the passes' decisions for deformed meshes against their C++ twins, every bit; and that streaming
 // gives the same image.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/gpu/passes/cull_statistics_pass.h"
+#include "runtime/gpu/statistics/cull_statistics_pass.h"
 #include "tests/runtime/gpu/cull_twin.h"
 #include "tests/runtime/gpu/deformed_scene.h"
 #include "tests/support/gpu_fixture.h"

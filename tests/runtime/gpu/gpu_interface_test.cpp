@@ -1,7 +1,7 @@
 // Tests that shaders and C++ agree about everything that crosses between them: reflects every shader of the
 // renderer and compares it with the layouts, push constants, specialization constants and structs of C++.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/gpu/passes/cull_statistics_pass.h"
+#include "runtime/gpu/statistics/cull_statistics_pass.h"
 #include "runtime/viewer/vulkan_host.h"
 #include "tests/runtime/gpu/brick_scene.h"
 #include "tests/runtime/gpu/deformed_scene.h"

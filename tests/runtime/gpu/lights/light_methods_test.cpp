@@ -1,6 +1,7 @@
-// Tests that the device lists lights as the CPU does, word for word, and that all light methods draw one image.
+// Tests that the device lists lights as the CPU does, word for word, and that all light methods draw one
+// image.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/gpu/lights/light_statistics_pass.h"
+#include "runtime/gpu/statistics/light_statistics_pass.h"
 #include "tests/runtime/gpu/brick_scene.h"
 #include "tests/runtime/gpu/deformed_scene.h"
 #include "tests/support/gpu_fixture.h"

@@ -40,13 +40,13 @@ std::string baseName(std::string name)
     return name;
 }
 
-/// Debug views, the background and final passes shade, too; the rest decides what is drawn where, or must be
-/// the CPU's to the bit.
+/// Debug views, the background, final passes and counts of lights shade, too; the rest decides what is
+/// drawn where, or must be the CPU's to the bit.
 bool shades(const std::string& shader)
 {
     const std::string name = baseName(shader);
     return relaxedShares().contains(name) || name.starts_with("view_") || name.starts_with("final_") ||
-           name == "sky_frag";
+           name == "sky_frag" || name == "light_statistics_comp";
 }
 
 double relaxedShare(std::span<const uint32_t> words)

@@ -1,6 +1,6 @@
-// Measures the lists of many lights: lights that a pixel evaluates beside those that reach it, milliseconds of
-// assignment, and the cells of spots, beside the ways of other engines. The scene is that of N. Billeter et al.:
-// a plane with thousands of balls. `./dev bench many-lights` runs it.
+// Measures the lists of many lights: lights that a pixel evaluates beside those that reach it, milliseconds
+// of assignment, and the cells of spots, beside the ways of other engines. The scene is that of N. Billeter
+// et al.: a plane with thousands of balls. `./dev bench many-lights` runs it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/base/program.h"
 #include "runtime/frame/light_lists.h"
@@ -8,7 +8,7 @@
 #include "runtime/gpu/frame/frame_plan.h"
 #include "runtime/gpu/lights/light_method.h"
 #include "tests/bench/aims.h"
-#include "tests/bench/light_peers.h"
+#include "tests/bench/lights/light_peers.h"
 
 #include <algorithm>
 #include <array>
@@ -285,9 +285,9 @@ struct Sector
     }
 };
 
-/// True unless a plane parts a cell from a sector, which is convex up to 90 degrees. E. Gilbert, "An iterative
-/// procedure for computing the minimum of a quadratic form on a convex set", 1966: the shortest vector between
-/// both. What is not decided in the end, at less than a millimetre, counts as met.
+/// True unless a plane parts a cell from a sector, which is convex up to 90 degrees. E. Gilbert, "An
+/// iterative procedure for computing the minimum of a quadratic form on a convex set", 1966: the shortest
+/// vector between both. What is not decided in the end, at less than a millimetre, counts as met.
 bool meets(const Corners& cell, const Sector& sector)
 {
     const auto supportCell = [&](Float3 direction)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/gpu/lights/light_statistics_pass.h"
+#include "runtime/gpu/statistics/light_statistics_pass.h"
 
 #include "runtime/gpu/vulkan/image_barrier.h"
 #include "runtime/shaders/shaders.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/gpu/passes/cull_statistics_pass.h"
+#include "runtime/gpu/statistics/cull_statistics_pass.h"
 
 #include "runtime/gpu/scene/scene_tables.h"
 #include "runtime/shaders/shaders.h"

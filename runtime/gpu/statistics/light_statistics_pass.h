@@ -1,5 +1,5 @@
-// Light statistics: counts the lights that the pixels of a frame evaluate. A separate pass behind a frame walks
-// the lists again, so that frames without statistics pay nothing.
+// Light statistics: counts the lights that the pixels of a frame evaluate. A separate pass behind a frame
+// walks the lists again, so that frames without statistics pay nothing.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/gpu/lights/light_change.h"
+#include "runtime/gpu/scene/light_change.h"
 
 #include "formats/scene/scene_lighting.h"
 #include "runtime/gpu/scene/scene_shadows.h"

@@ -16,10 +16,10 @@ struct LightChange
     shared::Light record{};
 };
 
-/// Compute the table row of a slot below SceneOptions::max_lights: one of the pack's lights, or a new one. The
-/// exposure of the scene stays. A light of intensity 0 is off, which also frees a slot. A lamp that moves loses
-/// the light that its shade gives back, until it is where it was. A light that becomes another type loses its
-/// shadow. errors: usage.
+/// Compute the table row of a slot below SceneOptions::max_lights: one of the pack's lights, or a new one.
+/// The exposure of the scene stays. A light of intensity 0 is off, which also frees a slot. A lamp that
+/// moves loses the light that its shade gives back, until it is where it was. A light that becomes another
+/// type loses its shadow. errors: usage.
 Result<LightChange> changeLight(const Scene& scene, uint32_t light, const formats::LightRecord& record);
 
 /// Write changes to the table of lights, to shadows and to what the lights' surroundings give back.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "tests/bench/light_peers.h"
+#include "tests/bench/lights/light_peers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -37,7 +37,7 @@ float FroxelGrid::sliceEnd(int slice) const
     return kLightNear * std::pow(kLightFar / kLightNear, share);
 }
 
-int FroxelGrid::sliceOf(float depth) const
+int FroxelGrid::findSlice(float depth) const
 {
     int slice = 0;
     while (slice < kSlices && depth >= sliceEnd(slice))
@@ -47,7 +47,7 @@ int FroxelGrid::sliceOf(float depth) const
 
 size_t FroxelGrid::cellAt(float x, float y, float depth) const
 {
-    const int slice = sliceOf(depth);
+    const int slice = findSlice(depth);
     if (slice >= kSlices)
         return kNoCell;
     const int column = std::min(static_cast<int>(x / cell_pixels_), columns_ - 1);
@@ -70,9 +70,9 @@ void FroxelGrid::assignBall(Float3 center, float radius, uint32_t light)
 {
     if (center.z + radius < view_.z_near)
         return;
-    const int first = sliceOf(std::max(center.z - radius, 0.0f));
-    const int last = std::min(sliceOf(center.z + radius), kSlices - 1);
-    const int own = sliceOf(std::max(center.z, 0.0f));
+    const int first = findSlice(std::max(center.z - radius, 0.0f));
+    const int last = std::min(findSlice(center.z + radius), kSlices - 1);
+    const int own = findSlice(std::max(center.z, 0.0f));
     for (int slice = first; slice <= last; ++slice)
     {
         Float3 cut = center;

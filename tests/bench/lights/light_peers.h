@@ -30,7 +30,7 @@ public:
 
 private:
     float sliceEnd(int slice) const;
-    int sliceOf(float depth) const;
+    int findSlice(float depth) const;
     void assignBall(Float3 center, float radius, uint32_t light);
     void assignRow(Float3 center, float radius2, int slice, int row, uint32_t light);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/gpu/lights/light_lists_pass.h"
+#include "runtime/gpu/passes/light_lists_pass.h"
 
 #include "formats/gpu_shared/push_constants.h"
 #include "runtime/shaders/shaders.h"
