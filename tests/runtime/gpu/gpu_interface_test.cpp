@@ -2,6 +2,7 @@
 // renderer and compares it with the layouts, push constants, specialization constants and structs of C++.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/statistics/cull_statistics_pass.h"
+#include "runtime/gpu/statistics/light_statistics_pass.h"
 #include "runtime/viewer/vulkan_host.h"
 #include "tests/runtime/gpu/brick_scene.h"
 #include "tests/runtime/gpu/deformed_scene.h"
@@ -48,6 +49,7 @@ std::map<std::string, uint32_t> constantIds()
             {"kLayers", shared::kConstantLayers},
             {"kComparesMaterial", shared::kConstantComparesMaterial},
             {"kFiltersShadows", shared::kConstantFiltersShadows},
+            {"kLightList", shared::kConstantLightList},
             {"kStored", shared::kConstantStored}};
 }
 
@@ -114,6 +116,10 @@ protected:
         const DeformedScene deformed({.rings = 8}, 1);
         const auto scene = uploadWith(recorded, deformed.pack(), {.shadows = {.max_maps = 4}});
         EXPECT_TRUE(gpu::CullStatisticsPass::create(recorded.device(), *scene).ok());
+        const auto targets = recorded.createTargets({16, 16}, {.keeps_visibility = true});
+        ASSERT_TRUE(targets.ok());
+        EXPECT_TRUE(
+            gpu::LightStatisticsPass::create(recorded.device(), recorded.layouts(), *scene, *targets).ok());
     }
 
     void uploadBricks(gpu::Renderer& recorded, const gpu::ShadowOptions& shadows)
