@@ -24,14 +24,14 @@ struct CellLight
     Float3 axis;  ///< unit
     float cosine; ///< of the half-angle; negative: the light has no cone
     float sine;
-    float slack; ///< metres by which all that it lights has grown
-    uint light;  ///< row of the light
-    uint slabs;  ///< first slab that it reaches, the last one << 16
+    float slack;     ///< metres by which all that it lights has grown
+    uint first_slab; ///< that it reaches, counted over all cascades
+    uint last_slab;
 };
 
 /// Metres by which balls and cones grow. It covers three things: a shaded point lies up to 1/64 of a pixel
-/// off the ray of its pixel, its depth may round into the next slab, and the tests round. extent distance
-/// of the farthest lit point from the eye
+/// off the ray of its pixel, its depth may round into the next slab, and the tests round.
+/// extent  distance of the farthest lit point from the eye
 HEARTH_FUNCTION float lightSlack(HEARTH_IN(LightGrid) grid, float extent)
 {
     HEARTH_PRECISE float slack = extent * grid.slack_share + grid.slack_size;
@@ -49,10 +49,11 @@ HEARTH_FUNCTION bool isLightOff(HEARTH_IN(Light) light)
     return light.intensity.x == 0.0f && light.intensity.y == 0.0f && light.intensity.z == 0.0f;
 }
 
-/// Bring a light with a range to view space. The least ball of a cone with half-angle t and range r has its
-/// centre on the axis: at r / (2 cos t) with that radius up to 45 degrees, else at r cos t with r sin t. A
-/// spot with a reflector lights its whole ball, and so does a cone above 90 degrees.
-HEARTH_FUNCTION CellLight makeCellLight(HEARTH_IN(LightGrid) grid, HEARTH_IN(Light) light, uint row)
+/// Bring a light with a range to view space; its slabs are left to the caller, who has the cascades. The
+/// least ball of a cone with half-angle t and range r has its centre on the axis: at r / (2 cos t) with
+/// that radius up to 45 degrees, else at r cos t with r sin t. A spot with a reflector lights its whole
+/// ball, and so does a cone above 90 degrees.
+HEARTH_FUNCTION CellLight makeCellLight(HEARTH_IN(LightGrid) grid, HEARTH_IN(Light) light)
 {
     HEARTH_PRECISE Float3 offset = light.position - grid.eye;
     CellLight cell;
@@ -61,8 +62,8 @@ HEARTH_FUNCTION CellLight makeCellLight(HEARTH_IN(LightGrid) grid, HEARTH_IN(Lig
                        dot3(grid.forward, light.direction));
     cell.range = light.range;
     cell.center = cell.apex;
-    cell.light = row;
-    cell.slabs = 0u;
+    cell.first_slab = 0u;
+    cell.last_slab = 0u;
     cell.cosine = -1.0f;
     cell.sine = 0.0f;
     HEARTH_PRECISE float radius = light.range;
@@ -100,8 +101,8 @@ HEARTH_FUNCTION float lightPlaneScale(HEARTH_IN(LightGrid) grid, float depth)
 }
 
 /// True if a ball is partly on the inner side of a plane through the eye, or along the view of an
-/// orthographic one: coordinate - edge * scale >= 0. side 1: greater coordinates are inside; -1: smaller
-/// ones
+/// orthographic one: coordinate - edge * scale >= 0.
+/// side  1: greater coordinates are inside; -1: smaller ones
 HEARTH_FUNCTION bool isBallInside(float coordinate, float scale, float edge, float edge_length, float side,
                                   float radius)
 {

@@ -116,7 +116,18 @@ struct LightListCounts
     uint reaching_high;
 };
 
-/// Words of LightListCounts, behind which the rows of the frame's lights follow.
+/// Words of LightListCounts, by member, for shaders that write them.
+HEARTH_CONSTANT uint kCountUnranged = 0;
+HEARTH_CONSTANT uint kCountRanged = 1;
+HEARTH_CONSTANT uint kCountIndexWords = 2;
+HEARTH_CONSTANT uint kCountOverflows = 3;
+HEARTH_CONSTANT uint kCountCells = 4;
+HEARTH_CONSTANT uint kCountIndices = 5;
+HEARTH_CONSTANT uint kCountPixels = 6;
+HEARTH_CONSTANT uint kCountLongest = 7;
+HEARTH_CONSTANT uint kCountEvaluated = 8; ///< two words, like the next one
+HEARTH_CONSTANT uint kCountReaching = 10;
+/// Words of all of them, behind which the rows of the frame's lights follow.
 HEARTH_CONSTANT uint kLightCountWords = 12;
 
 HEARTH_CONSTEXPR_FUNCTION uint lightCellWord(uint offset, uint count)
@@ -155,6 +166,13 @@ HEARTH_SHARED_END
 static_assert(sizeof(hearth::shared::LightCascade) == 64);
 static_assert(sizeof(hearth::shared::LightGrid) == 112);
 static_assert(sizeof(hearth::shared::LightListCounts) == 4 * hearth::shared::kLightCountWords);
+static_assert(offsetof(hearth::shared::LightListCounts, ranged) == 4 * hearth::shared::kCountRanged);
+static_assert(offsetof(hearth::shared::LightListCounts, overflows) == 4 * hearth::shared::kCountOverflows);
+static_assert(offsetof(hearth::shared::LightListCounts, indices) == 4 * hearth::shared::kCountIndices);
+static_assert(offsetof(hearth::shared::LightListCounts, longest) == 4 * hearth::shared::kCountLongest);
+static_assert(offsetof(hearth::shared::LightListCounts, evaluated_low) ==
+              4 * hearth::shared::kCountEvaluated);
+static_assert(offsetof(hearth::shared::LightListCounts, reaching_low) == 4 * hearth::shared::kCountReaching);
 #endif
 
 #endif

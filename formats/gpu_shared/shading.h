@@ -111,7 +111,7 @@ struct Lighting
     uint reserved1;
     uint reserved2;
     LightGrid grid;
-    LightCascade cascades[12]; ///< kLightCascades
+    LightCascade cascades[kLightCascades];
 };
 
 /// Default lighting of every scene beside its own lights: a sky of three colours (radiance), and one sun
@@ -152,8 +152,7 @@ HEARTH_SHARED_END
 static_assert(sizeof(hearth::shared::Material) == 224);
 static_assert(sizeof(hearth::shared::MaterialLayers) == 176);
 static_assert(sizeof(hearth::shared::Light) == 96);
-static_assert(sizeof(hearth::shared::Lighting) == 80 + 112 + 12 * 64);
-static_assert(hearth::shared::kLightCascades == 12);
+static_assert(sizeof(hearth::shared::Lighting) == 80 + 112 + 64 * hearth::shared::kLightCascades);
 #endif
 
 #endif

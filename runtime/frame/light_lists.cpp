@@ -65,11 +65,11 @@ void LightLists::listLights(const LightGridLayout& layout, std::span<const Light
     {
         if (isUnrangedLight(lights[i]) || isLightOff(lights[i]))
             continue;
-        CellLight light = makeCellLight(grid, lights[i], i);
+        CellLight light = makeCellLight(grid, lights[i]);
         if (!isLightInView(grid, light))
             continue;
-        light.slabs = slabNumber(layout, std::max(light.center.z - light.radius, grid.z_near)) |
-                      slabNumber(layout, std::max(light.center.z + light.radius, grid.z_near)) << 16;
+        light.first_slab = slabNumber(layout, std::max(light.center.z - light.radius, grid.z_near));
+        light.last_slab = slabNumber(layout, std::max(light.center.z + light.radius, grid.z_near));
         lists.frame[lists.counts->unranged + ranged_.size()] = i;
         ranged_.push_back(light);
     }
@@ -132,8 +132,8 @@ void LightLists::addLight(const LightGridLayout& layout, const CellLight& light,
     ball_.begin(grid, light);
     if (is_cone)
         range_ball_.begin(grid, rangeBall(light));
-    const uint32_t first = light.slabs & 0xFFFFu;
-    const uint32_t last = light.slabs >> 16;
+    const uint32_t first = light.first_slab;
+    const uint32_t last = light.last_slab;
     for (const LightCascade& cascade : layout.cascades)
     {
         if (cascade.first_slab + cascade.slabs <= first || cascade.first_slab > last)

@@ -16,7 +16,7 @@ namespace
 
 constexpr VkDeviceSize kRowBytes = 16;
 
-/// Room for indices: 256 lights in cells for each light, as much as scenes of lamps need (bench "lights"), up
+/// Room for indices: 256 for each light, twice what a light of the sample `market` takes (1024 lights), up
 /// to 128 Ki indices.
 uint32_t indexWords(uint32_t capacity)
 {

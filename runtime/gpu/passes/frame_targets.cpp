@@ -5,6 +5,7 @@
 #include "formats/gpu_shared/occlusion.h"
 #include "runtime/frame/frame.h"
 #include "runtime/gpu/frame/frame_plan.h"
+#include "runtime/gpu/vulkan/sampler.h"
 
 #include <algorithm>
 #include <cstring>
@@ -16,17 +17,6 @@ namespace hearth::gpu
 
 namespace
 {
-
-Result<UniqueSampler> createTexelSampler(const Device& device)
-{
-    VkSamplerCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
-    info.addressModeU = info.addressModeV = info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    VkSampler sampler;
-    HEARTH_TRY_VK(device.vk.vkCreateSampler(device.handle, &info, device.allocator, &sampler),
-                  "create a sampler");
-    return UniqueSampler(device, sampler);
-}
 
 /// Create an image of one texel, which nobody reads.
 Result<Image> createTexel(MemoryArena& arena, VkFormat format)
@@ -260,7 +250,7 @@ Status FrameTargets::createTileLists(const Device& device)
 
 Status FrameTargets::createSets(const Device& device, const DrawLayouts& layouts, FrameWay way)
 {
-    HEARTH_ASSIGN_OR_RETURN(texel_sampler_, createTexelSampler(device));
+    HEARTH_ASSIGN_OR_RETURN(texel_sampler_, createClampingSampler(device, VK_FILTER_NEAREST));
     if (options_.gathers_light)
     {
         HEARTH_ASSIGN_OR_RETURN(gather_, GatherTargets::create(device, layouts, arena_, extent_,

@@ -2,24 +2,13 @@
 #include "runtime/gpu/post/post_targets.h"
 
 #include "runtime/gpu/vulkan/image_barrier.h"
+#include "runtime/gpu/vulkan/sampler.h"
 
 namespace hearth::gpu
 {
 
 namespace
 {
-
-Result<UniqueSampler> createFilterSampler(const Device& device)
-{
-    VkSamplerCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
-    info.magFilter = info.minFilter = VK_FILTER_LINEAR;
-    info.addressModeU = info.addressModeV = info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    VkSampler sampler;
-    HEARTH_TRY_VK(device.vk.vkCreateSampler(device.handle, &info, device.allocator, &sampler),
-                  "create a sampler");
-    return UniqueSampler(device, sampler);
-}
 
 /// Number of a level or a sum among its kind.
 size_t numberFrom(FrameResource resource, FrameResource first)
@@ -44,7 +33,7 @@ Status PostTargets::createImages(const Device& device, MemoryArena& arena, VkFor
                                  bool may_bloom, bool keeps_radiance)
 {
     constexpr VkImageUsageFlags kUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
-    HEARTH_ASSIGN_OR_RETURN(sampler_, createFilterSampler(device));
+    HEARTH_ASSIGN_OR_RETURN(sampler_, createClampingSampler(device, VK_FILTER_LINEAR));
     const VkImageUsageFlags copied = keeps_radiance ? VkImageUsageFlags{VK_IMAGE_USAGE_TRANSFER_SRC_BIT} : 0;
     HEARTH_ASSIGN_OR_RETURN(
         radiance_, arena.createImage({.format = format, .extent = extent, .usage = kUsage | copied}));

@@ -3,6 +3,7 @@
 #include "formats/scene/sheen.h"
 #include "formats/scene/sky_table.h"
 #include "runtime/gpu/scene/scene.h"
+#include "runtime/gpu/vulkan/sampler.h"
 
 namespace hearth::gpu
 {
@@ -13,20 +14,6 @@ namespace
 constexpr uint32_t kNodes = shared::kSpecularNodes;
 
 constexpr VkImageUsageFlags kTableUsage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-
-/// Create a linear sampler that clamps to the last node of an axis.
-Result<VkSampler> createSampler(const Device& device, Scene& scene)
-{
-    VkSamplerCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
-    info.magFilter = info.minFilter = VK_FILTER_LINEAR;
-    info.addressModeU = info.addressModeV = info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
-    VkSampler sampler;
-    HEARTH_TRY_VK(device.vk.vkCreateSampler(device.handle, &info, device.allocator, &sampler),
-                  "create a sampler");
-    scene.samplers.emplace_back(device, sampler);
-    return sampler;
-}
 
 /// Upload the pack's table of specular occlusion, if it has one.
 Status uploadSpecularTable(const Device& device, const formats::PackView& pack, VkSampler sampler,
@@ -57,7 +44,10 @@ Status uploadSpecularTable(const Device& device, const formats::PackView& pack, 
 Status uploadShadingTables(const Device& device, const formats::PackView& pack, Uploader& uploader,
                            Scene& scene)
 {
-    HEARTH_ASSIGN_OR_RETURN(const VkSampler sampler, createSampler(device, scene));
+    // clamps to the last node of an axis
+    HEARTH_ASSIGN_OR_RETURN(UniqueSampler linear, createClampingSampler(device, VK_FILTER_LINEAR));
+    const VkSampler sampler = linear.get();
+    scene.samplers.push_back(std::move(linear));
     HEARTH_ASSIGN_OR_RETURN(
         scene.reflectance_table,
         scene.arena.createImage({.format = VK_FORMAT_R16G16B16A16_SFLOAT,

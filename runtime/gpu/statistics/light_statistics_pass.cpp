@@ -2,6 +2,7 @@
 #include "runtime/gpu/statistics/light_statistics_pass.h"
 
 #include "runtime/gpu/vulkan/image_barrier.h"
+#include "runtime/gpu/vulkan/sampler.h"
 #include "runtime/shaders/shaders.h"
 
 #include <cstring>
@@ -14,16 +15,6 @@ namespace
 
 /// Threads of a workgroup each way, as in light_statistics.comp.
 constexpr uint32_t kGroupPixels = 8;
-
-Result<UniqueSampler> createTexelSampler(const Device& device)
-{
-    VkSamplerCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
-    VkSampler sampler;
-    HEARTH_TRY_VK(device.vk.vkCreateSampler(device.handle, &info, device.allocator, &sampler),
-                  "create a sampler");
-    return UniqueSampler(device, sampler);
-}
 
 } // namespace
 
@@ -49,7 +40,7 @@ Result<LightStatisticsPass> LightStatisticsPass::create(const Device& device, co
             pass.pipelines_[method],
             createComputePipeline(device, shaders::light_statistics_comp, sets, 0, constants));
     }
-    HEARTH_ASSIGN_OR_RETURN(pass.sampler_, createTexelSampler(device));
+    HEARTH_ASSIGN_OR_RETURN(pass.sampler_, createClampingSampler(device, VK_FILTER_NEAREST));
     const auto frames = static_cast<uint32_t>(scene.frames.size());
     HEARTH_ASSIGN_OR_RETURN(pass.pool_,
                             createDescriptorPool(device, frames, {.storages = frames, .textures = frames}));

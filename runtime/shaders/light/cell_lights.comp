@@ -30,7 +30,7 @@ void markLights(LightSlab slab, uint slab_number, vec4 edges, uint count)
     for (uint i = gl_LocalInvocationIndex; i < count; i += kBlockCells * kBlockCells)
     {
         CellLight light = lights_in_view[i];
-        if (slab_number < (light.slabs & 0xFFFFu) || slab_number > light.slabs >> 16)
+        if (slab_number < light.first_slab || slab_number > light.last_slab)
             continue;
         vec4 bounds = lightBounds(lighting.grid, light, slab).edges;
         if (bounds.x <= bounds.y && bounds.x <= edges.y && bounds.y >= edges.x && bounds.z <= edges.w && bounds.w >= edges.z)
@@ -40,7 +40,7 @@ void markLights(LightSlab slab, uint slab_number, vec4 edges, uint count)
 
 void main()
 {
-    uint count = lightCount(kRangedCount);
+    uint count = lightCount(kCountRanged);
     uint slab_number = gl_WorkGroupID.z;
     uint k = cascadeOfSlab(slab_number);
     LightCascade cascade = lighting.cascades[k];

@@ -12,12 +12,4 @@ layout(set = kSetLights, binding = kLightsBuffer, std140) readonly buffer Lighti
 layout(set = kSetLights, binding = kLightsBuffer, std430) buffer LightWords { uint light_words[]; };
 layout(set = kSetLights, binding = kLightsInView, std430) buffer LightsInView { CellLight lights_in_view[]; };
 
-// Words of LightListCounts.
-const uint kUnrangedCount = 0u;
-const uint kRangedCount = 1u;
-const uint kIndexWordCount = 2u;
-const uint kOverflowCount = 3u;
-const uint kCellCount = 4u;
-const uint kIndexCount = 5u;
-
 uint lightCount(uint which) { return light_words[lighting.first_list_word + which]; }

@@ -21,12 +21,6 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(set = kSetLightStatistics, binding = kLightStatisticsVisibility) uniform usampler2D visibility;
 layout(set = kSetLightStatistics, binding = kLightStatisticsBuffer, std430) buffer LightCounts { uint light_counts[]; };
 
-// words of LightListCounts
-const uint kPixelCount = 6u;
-const uint kLongestList = 7u;
-const uint kEvaluatedCount = 8u;
-const uint kReachingCount = 10u;
-
 vec3 reflectedShare(Light light, vec3 from_lamp)
 {
     return vec3(0.0);
@@ -59,8 +53,8 @@ void main()
         reaching += any(greaterThan(irradiance, vec3(0.0))) ? 1u : 0u;
     }
     uint first = lighting.first_list_word;
-    atomicAdd(light_counts[first + kPixelCount], 1u);
-    atomicMax(light_counts[first + kLongestList], listing.count);
-    add(first + kEvaluatedCount, listing.count);
-    add(first + kReachingCount, reaching);
+    atomicAdd(light_counts[first + kCountPixels], 1u);
+    atomicMax(light_counts[first + kCountLongest], listing.count);
+    add(first + kCountEvaluated, listing.count);
+    add(first + kCountReaching, reaching);
 }

@@ -38,7 +38,7 @@ void main()
         CellLight light;
         if (is_listed)
         {
-            light = makeCellLight(lighting.grid, lights[row], row);
+            light = makeCellLight(lighting.grid, lights[row]);
             is_listed = isLightInView(lighting.grid, light);
         }
         uint total;
@@ -47,7 +47,8 @@ void main()
         {
             precise float nearest = max(light.center.z - light.radius, lighting.grid.z_near);
             precise float farthest = max(light.center.z + light.radius, lighting.grid.z_near);
-            light.slabs = slabNumber(nearest) | slabNumber(farthest) << 16;
+            light.first_slab = slabNumber(nearest);
+            light.last_slab = slabNumber(farthest);
             light_words[first_row + unranged_count + place] = row;
             lights_in_view[place] = light;
         }
@@ -56,5 +57,5 @@ void main()
     // passes that follow set the other counts or add to them
     uint word = gl_LocalInvocationIndex;
     if (word < kLightCountWords)
-        light_words[lighting.first_list_word + word] = word == kUnrangedCount ? unranged_count : word == kRangedCount ? ranged : 0u;
+        light_words[lighting.first_list_word + word] = word == kCountUnranged ? unranged_count : word == kCountRanged ? ranged : 0u;
 }

@@ -39,9 +39,9 @@ void main()
     barrier();
     if (gl_LocalInvocationIndex == 0u)
     {
-        light_words[lighting.first_list_word + kIndexWordCount] = words;
-        light_words[lighting.first_list_word + kOverflowCount] = overflows;
-        light_words[lighting.first_list_word + kCellCount] = cells;
-        light_words[lighting.first_list_word + kIndexCount] = indices;
+        light_words[lighting.first_list_word + kCountIndexWords] = words;
+        light_words[lighting.first_list_word + kCountOverflows] = overflows;
+        light_words[lighting.first_list_word + kCountCells] = cells;
+        light_words[lighting.first_list_word + kCountIndices] = indices;
     }
 }

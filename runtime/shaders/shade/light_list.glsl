@@ -16,8 +16,8 @@ struct LightListing
 // position  relative to the eye
 LightListing findLights(vec3 position, vec2 pixel)
 {
-    uint unranged_count = light_words[lighting.first_list_word];
-    uint ranged = light_words[lighting.first_list_word + 1u];
+    uint unranged_count = light_words[lighting.first_list_word + kCountUnranged];
+    uint ranged = light_words[lighting.first_list_word + kCountRanged];
     LightListing listing = LightListing(unranged_count, unranged_count + ranged, 0u, false);
     if (kLightList == kLightListFrame || ranged == 0u)
         return listing;

@@ -125,7 +125,7 @@ TEST(LightLists, equalTheTestOfEachCell)
                     for (uint32_t place = 0; place < memory.counts.ranged; ++place)
                     {
                         const uint32_t row = memory.frame[memory.counts.unranged + place];
-                        const shared::CellLight light = makeCellLight(layout.grid, lights[row], row);
+                        const shared::CellLight light = makeCellLight(layout.grid, lights[row]);
                         const shared::LightRow edges{lightRowEdge(layout.grid, cascade, r),
                                                      lightRowEdge(layout.grid, cascade, r + 1)};
                         const shared::LightColumns columns =

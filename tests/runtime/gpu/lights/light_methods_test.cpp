@@ -163,7 +163,22 @@ TEST_F(LightMethodsTest, drawOneImageByAThousandLightsInAllSizes)
         expectOneImage(kOverview, {.width = width, .height = height});
 }
 
-TEST_F(LightMethodsTest, drawOneImageOfCharactersAndBricks)
+TEST_F(LightMethodsTest, drawOneImageOfCharacters)
+{
+    const DeformedScene characters({.rings = 12}, 5);
+    scene_ = upload(characters.pack(), {.max_lights = 200});
+    ASSERT_TRUE(renderer().prepareLightMethod(*scene_, gpu::LightMethod::all).ok());
+    std::vector<gpu::LightChange> changes;
+    for (uint32_t slot = 0; slot < 100; ++slot)
+        changes.push_back(gpu::changeLight(*scene_, slot, randomLight(random_, 8)).value());
+    const std::vector<TestPose> poses = characters.randomPoses(random_);
+    const auto views = makeViews(poses);
+    draw(*scene_, kOverview, {.poses = views, .lights = changes});
+    expectOneImage(kOverview);
+    EXPECT_GT(gpu::readLightCounts(*scene_).ranged, 50u);
+}
+
+TEST_F(LightMethodsTest, drawOneImageWithBricks)
 {
     addGround();
     addLights(64, 8);
@@ -175,7 +190,7 @@ TEST_F(LightMethodsTest, drawOneImageOfCharactersAndBricks)
     bricks.grid.voxel_size = 1;
     setBricks(test_, bricks);
     load();
-    // two scenes in the same state: the light of bricks changes from frame to frame
+    // a scene for each method: the light of bricks changes from frame to frame
     const auto settle = [&](gpu::LightMethod method)
     {
         auto scene = upload(*pack_);
