@@ -4,7 +4,9 @@
 #include "pipelines/report/write_report.h"
 #include "tests/support/sandbox.h"
 
+#include <algorithm>
 #include <gtest/gtest.h>
+#include <limits>
 #include <string>
 #include <sys/resource.h>
 
@@ -203,25 +205,30 @@ TEST_F(Page, ofThousandsOfAssetsOpensAtOnce)
     const std::string path = folder / "page.html";
     ASSERT_TRUE(writeReport(makeReport(kAssets).dump(), path, "").ok());
     EXPECT_LT(folder.read("page.html").size(), 20u << 20);
-    // CPU seconds, relative to an empty page: other load on the machine does not matter then. The elapsed
-    // time on an idle machine is less, since browsers work in parallel.
+    // CPU seconds in units of those that the browser needs for an empty page. The speed of the machine and
+    // other load on it cancel then. Each page counts with the least of three openings.
     folder.write("empty.html", "<!doctype html><title>empty</title>");
-    const auto measureSeconds = [&](const std::string& name, std::string& dom)
-    {
-        const double before = childSeconds();
-        dom = open(name);
-        return childSeconds() - before;
-    };
     std::string dom;
-    measureSeconds("empty.html", dom); // the first start of a browser writes its profile
-    const double start = measureSeconds("empty.html", dom);
-    const double seconds = measureSeconds("page.html", dom) - start;
+    const auto measureSeconds = [&](const std::string& name)
+    {
+        double least = std::numeric_limits<double>::infinity();
+        for (int i = 0; i < 3; ++i)
+        {
+            const double before = childSeconds();
+            dom = open(name);
+            least = std::min(least, childSeconds() - before);
+        }
+        return least;
+    };
+    const double start = measureSeconds("empty.html");
+    const double seconds = measureSeconds("page.html") - start;
     ASSERT_GE(getNumber(dom, "ready"), 0);
-    EXPECT_LT(seconds, 2);
+    EXPECT_LT(seconds, 2 * start);
     EXPECT_EQ(getNumber(dom, "requests"), 0);
     EXPECT_LT(countOccurrences(dom, "role=\"row\""), 200u) << "only rows that are seen";
     EXPECT_EQ(getNumber(dom, "bars"), 4 * kAssets / 100);
     RecordProperty("milliseconds", static_cast<int>(seconds * 1000));
+    RecordProperty("start_milliseconds", static_cast<int>(start * 1000));
     RecordProperty("wall_milliseconds", getNumber(dom, "ready"));
 }
 
