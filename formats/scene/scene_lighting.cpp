@@ -2,6 +2,7 @@
 #include "formats/scene/scene_lighting.h"
 
 #include "formats/base/affine3d.h"
+#include "formats/gpu_shared/shadow.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,14 +18,10 @@ Light defaultSun()
 {
     Light sun{};
     sun.type = static_cast<uint32_t>(formats::LightType::directional);
+    sun.shadow_row = kNoShadow;
     sun.direction = normalizeOr(kSunDirection, {0, -1, 0});
     sun.intensity = kSunIlluminance;
     return sun;
-}
-
-float luminance(Float3 c)
-{
-    return dot(c, {0.2126f, 0.7152f, 0.0722f});
 }
 
 /// Estimate the illuminance in the middle of the scene. The distance of a lamp is at least a quarter of the
@@ -46,6 +43,11 @@ std::span<const formats::LightRecord> shadedLights(std::span<const formats::Ligh
 
 } // namespace
 
+float luminance(Float3 color)
+{
+    return dot(color, {0.2126f, 0.7152f, 0.0722f});
+}
+
 Light lightFromRecord(const formats::LightRecord& record)
 {
     Light light{};
@@ -54,6 +56,7 @@ Light lightFromRecord(const formats::LightRecord& record)
     light.direction = normalizeOr(transformVector(record.world_from_light, {0, 0, -1}), {0, -1, 0});
     light.range = record.range;
     light.intensity = record.color * record.intensity;
+    light.shadow_row = kNoShadow;
     // KHR_lights_punctual, "Inner and outer cone angles": linear between the two cosines
     const float cos_outer = std::cos(record.outer_cone_rad);
     light.cone_scale = 1.0f / std::max(0.001f, std::cos(record.inner_cone_rad) - cos_outer);

@@ -22,6 +22,9 @@ struct SceneLighting
     std::vector<Light> lights;
 };
 
+/// Return the luminance of a linear colour.
+float luminance(Float3 color);
+
 /// Convert a light, before exposure, and without a shadow.
 Light lightFromRecord(const formats::LightRecord& record);
 

@@ -377,13 +377,15 @@ typedef struct hearth_shadow_counters
     uint32_t drawn_maps;        /* drawn by the frame; the others were cached */
     uint32_t moved_maps;        /* maps in which the frame drew moving casters */
     uint32_t dropped_maps;      /* beyond max_maps */
-    uint32_t unshadowed_lights; /* lights without a map */
-    uint32_t depth_bits; /* since 1.8: of the maps; 32 if a step of 16 bits would show in any of them */
+    uint32_t unshadowed_lights; /* lights that are on, without a map */
+    uint32_t depth_bits;      /* since 1.8: of the maps; 32 if a step of 16 bits would show in any of them */
+    uint32_t shadowed_lights; /* since 1.8: lights with maps */
+    uint32_t unseen_maps;     /* since 1.8: faces of point lights that nothing in view is in, without a map */
 } hearth_shadow_counters;
 
 #define HEARTH_SHADOW_COUNTERS_INIT                                                                          \
     {                                                                                                        \
-        sizeof(hearth_shadow_counters), 0, 0, 0, 0, 0, 0                                                     \
+        sizeof(hearth_shadow_counters), 0, 0, 0, 0, 0, 0, 0, 0                                               \
     }
 
 /* errors: USAGE, also if the scene has no shadows. */
@@ -635,8 +637,8 @@ enum
     HEARTH_LIGHT_SPOT = 3
 };
 
-/* New state of a slot's light, from this frame on (1.4): a light of the pack, or one of the game (1.8), which
- * casts no shadow. All finite. Changes of lights that the scene left out (dropped_lights) have no effect. */
+/* New state of a slot's light, from this frame on (1.4): a light of the pack, or one of the game (1.8). All
+ * finite. Changes of lights that the scene left out (dropped_lights) have no effect. */
 typedef struct hearth_light_change
 {
     uint32_t light; /* slot: index in the pack, or behind, below hearth_scene_options.max_lights */
@@ -646,7 +648,9 @@ typedef struct hearth_light_change
     float range;                  /* metres; 0: unlimited: every pixel evaluates such a light */
     float inner_cone_rad;         /* of a spot */
     float outer_cone_rad;
-    uint32_t type; /* since 1.8: HEARTH_LIGHT_*; a light of another type than the pack's casts no shadow */
+    uint32_t type; /* since 1.8: HEARTH_LIGHT_* */
+    /* since 1.8: intensity without flicker, by which lights are ranked for shadow maps; 0: as intensity */
+    float steady_intensity;
 } hearth_light_change;
 
 /* Lights that a pixel evaluates (1.8). The images are the same. */

@@ -34,8 +34,10 @@ Status makeLights(hearth_scene& scene, const hearth_frame& frame)
         record.range = change.range;
         record.inner_cone_rad = change.inner_cone_rad;
         record.outer_cone_rad = change.outer_cone_rad;
+        const auto steady_intensity =
+            change.steady_intensity == 0 ? std::nullopt : std::optional(change.steady_intensity);
         HEARTH_ASSIGN_OR_RETURN(const gpu::LightChange made,
-                                gpu::changeLight(*scene.scene, change.light, record));
+                                gpu::changeLight(*scene.scene, change.light, record, steady_intensity));
         scene.lights.push_back(made);
     }
     return success();

@@ -69,6 +69,7 @@ hearth_light_change toChange(const pack::PlayedLight& played)
     change.range = record.range;
     change.inner_cone_rad = record.inner_cone_rad;
     change.outer_cone_rad = record.outer_cone_rad;
+    change.steady_intensity = played.steady_intensity;
     return change;
 }
 

@@ -105,7 +105,9 @@ hearth_result hearth_scene_get_shadow_counters(const hearth_scene* scene, hearth
                                  .moved_maps = last.moved_maps,
                                  .dropped_maps = last.dropped_maps,
                                  .unshadowed_lights = last.unshadowed_lights,
-                                 .depth_bits = gpu::depthBits(scene->scene->shadows->depth().depth)};
+                                 .depth_bits = gpu::depthBits(scene->scene->shadows->depth().depth),
+                                 .shadowed_lights = last.shadowed_lights,
+                                 .unseen_maps = last.unseen_maps};
                     return success();
                 });
 }

@@ -173,8 +173,8 @@ FrameDescription Renderer::describe(const Scene& scene, const FrameTargets& targ
     if (scene.shadows != nullptr)
     {
         configuration.maps_at_once = static_cast<uint32_t>(scene.frame().casters.size());
-        for (const ShadowCache::LayerUpdate& map :
-             scene.shadows->findStale(scaledView(scene, input.view), input.shadow_spheres, input.moves))
+        for (const ShadowCache::LayerUpdate& map : scene.shadows->findStale(
+                 scaledView(scene, input.view), scene.lights->lights(), input.shadow_spheres, input.moves))
             configuration.maps.push_back(map.copy_from ? MapContent::moving : MapContent::fresh);
     }
     return describeFrame(configuration);
@@ -380,7 +380,7 @@ void Renderer::recordPrefetch(VkCommandBuffer commands, const Scene& scene, Fram
     PassRecorder passes(device_, commands, passes_.plan({.occlusion = OcclusionCulling::off}), targets);
     passes.begin(FrameStep::update);
     recordFrameUpdate(device_, commands, scene, targets, copy_words_, scene.stream->scaled(view),
-                      {moves, poses});
+                      {.moves = moves, .poses = poses, .draws = false});
     passes.begin(FrameStep::cull);
     cull_.record(device_, commands, scene, scene.frame().main, targets.occlusionSet(), shared::kPhaseWhole);
     page_requests_.record(device_, commands, scene);
@@ -410,7 +410,8 @@ void Renderer::recordShadows(VkCommandBuffer commands, const Scene& scene, const
                              PassRecorder& passes) const
 {
     const DebugLabel label(device_, commands, "shadows");
-    const std::span<const ShadowCache::LayerUpdate> stale = scene.shadows->planFrame(view, spheres);
+    const std::span<const ShadowCache::LayerUpdate> stale =
+        scene.shadows->planFrame(view, scene.lights->lights(), spheres);
     const SceneFrame& frame = scene.frame();
     const shared::ShadowBlock& block = scene.shadows->plan().block;
     std::memcpy(frame.shadow_block.mapped, &block, sizeof(block));

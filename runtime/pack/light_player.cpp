@@ -52,7 +52,7 @@ LightPlayer::LightPlayer(const formats::PackView& pack)
         const Affine3d& node_at_rest = world_from_node[light.node];
         sources_.push_back(
             {is_moved, node_at_rest, formats::nodeFromObject(node_at_rest, light.world_from_light)});
-        current_.push_back({i, light});
+        current_.push_back({i, light, light.intensity});
     }
     changed_.resize(current_.size());
 }
@@ -74,10 +74,10 @@ void LightPlayer::sampleClips(const PlayedClips& clips)
 
 /// Return a light. If its transform does not fit into floats, it stays where it was. With its node at rest it
 /// has the pack's transform to the bit: renderers may know what such a light's surroundings give back.
-formats::LightRecord LightPlayer::lightNow(size_t i, std::span<const Affine3d> world_from_node,
-                                           double seconds) const
+PlayedLight LightPlayer::lightNow(size_t i, std::span<const Affine3d> world_from_node, double seconds) const
 {
     formats::LightRecord light = from_[current_[i].light];
+    const float steady_intensity = light.intensity;
     const Source& source = sources_[i];
     if (source.is_moved && !(world_from_node[light.node] == source.node_at_rest))
     {
@@ -85,7 +85,7 @@ formats::LightRecord LightPlayer::lightNow(size_t i, std::span<const Affine3d> w
         light.world_from_light = moved ? *moved : current_[i].record.world_from_light;
     }
     light.intensity = static_cast<float>(double{light.intensity} * formats::flickerFactor(light, seconds));
-    return light;
+    return {current_[i].light, light, steady_intensity};
 }
 
 void LightPlayer::update(const PosePlayer& poses, double seconds)
@@ -95,10 +95,10 @@ void LightPlayer::update(const PosePlayer& poses, double seconds)
     changed_count_ = 0;
     for (size_t i = 0; i < current_.size(); ++i)
     {
-        const formats::LightRecord light = lightNow(i, poses.worldFromNode(), seconds);
-        if (equal(light, current_[i].record))
+        const PlayedLight light = lightNow(i, poses.worldFromNode(), seconds);
+        if (equal(light.record, current_[i].record))
             continue;
-        current_[i].record = light;
+        current_[i] = light;
         changed_[changed_count_++] = current_[i];
     }
 }

@@ -16,6 +16,7 @@ struct PlayedLight
 {
     uint32_t light = 0; ///< index in the pack
     formats::LightRecord record{};
+    float steady_intensity = 0; ///< the record's, without flicker
 };
 
 /// Player of the lights of one checked pack, which must outlive it. Starts with the lights as the pack has
@@ -44,7 +45,7 @@ private:
         Affine3d node_from_light;
     };
     void sampleClips(const PlayedClips& clips);
-    formats::LightRecord lightNow(size_t i, std::span<const Affine3d> world_from_node, double seconds) const;
+    PlayedLight lightNow(size_t i, std::span<const Affine3d> world_from_node, double seconds) const;
 
     formats::AnimationTables tables_;
     std::span<const formats::LightRecord> rest_;

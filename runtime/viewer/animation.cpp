@@ -124,8 +124,9 @@ Status FrameLights::add(const pack::LightPlayer& player, const gpu::Scene& scene
     {
         if (played.light >= scene.lights->lights().size())
             break;
-        HEARTH_ASSIGN_OR_RETURN(const gpu::LightChange change,
-                                gpu::changeLight(scene, played.light, played.record));
+        HEARTH_ASSIGN_OR_RETURN(
+            const gpu::LightChange change,
+            gpu::changeLight(scene, played.light, played.record, played.steady_intensity));
         changes_.push_back(change);
     }
     is_first_ = false;

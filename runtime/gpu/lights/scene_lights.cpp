@@ -3,6 +3,7 @@
 
 #include "formats/base/assert.h"
 #include "formats/gpu_shared/occluder_light.h"
+#include "formats/gpu_shared/shadow.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -70,10 +71,22 @@ void SceneLights::fill(MirroredTable& table, std::span<const std::byte> surround
 void SceneLights::set(MirroredTable& table, uint32_t slot, const shared::Light& light)
 {
     HEARTH_ASSERT(slot < layout_.capacity);
+    shared::Light unused{};
+    unused.shadow_row = shared::kNoShadow;
     if (slot >= lighting_.lights.size())
-        lighting_.lights.resize(slot + 1);
-    lighting_.lights[slot] = light;
-    table.write(layout_.light(slot), std::as_bytes(std::span(&light, 1)));
+        lighting_.lights.resize(slot + 1, unused);
+    shared::Light& current = lighting_.lights[slot];
+    const uint32_t row = current.shadow_row;
+    current = light;
+    current.shadow_row = row;
+    table.write(layout_.light(slot), std::as_bytes(std::span(&current, 1)));
+}
+
+void SceneLights::setShadowRow(MirroredTable& table, uint32_t slot, uint32_t row)
+{
+    HEARTH_ASSERT(slot < lighting_.lights.size());
+    lighting_.lights[slot].shadow_row = row;
+    table.write(layout_.light(slot) + offsetof(shared::Light, shadow_row), std::as_bytes(std::span(&row, 1)));
 }
 
 bool SceneLights::hasRangedLights() const

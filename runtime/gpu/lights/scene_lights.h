@@ -57,8 +57,11 @@ public:
     void fill(MirroredTable& table, std::span<const std::byte> surroundings, uint64_t transfer_rows,
               bool has_surroundings);
 
-    /// Replace the light of a slot below the capacity.
+    /// Replace the light of a slot below the capacity. It keeps the slot's shadow row.
     void set(MirroredTable& table, uint32_t slot, const shared::Light& light);
+
+    /// Set the shadow row of a slot in use.
+    void setShadowRow(MirroredTable& table, uint32_t slot, uint32_t row);
 
     /// True if a frame lists its lights on the device: without ranged lights the lists are those of the frame
     /// alone, which the CPU has at once.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/passes/frame_update.h"
 
+#include "runtime/gpu/scene/scene_shadows.h"
+
 #include <cstring>
 
 namespace hearth::gpu
@@ -47,6 +49,8 @@ WordCopies recordFrameUpdate(const Device& device, VkCommandBuffer commands, con
     takeMoves(scene, changes.moves);
     takePoses(scene, changes.poses);
     takeLights(scene, changes.lights);
+    if (scene.shadows != nullptr && changes.draws)
+        scene.shadows->chooseLights(view, *scene.lights, scene.tables->lighting);
     const SceneFrame& frame = beginSceneFrame(scene);
     writeView(frame.main, view);
     targets.beginFrame(view);

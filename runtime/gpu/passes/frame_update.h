@@ -20,6 +20,7 @@ struct FrameChanges
     std::span<const InstanceMove> moves{};
     std::span<const InstancePose> poses{};
     std::span<const LightChange> lights{};
+    bool draws = true; ///< false: nothing is drawn, and shadow maps stay with the lights that have them
 };
 
 /// Begin a frame of a scene with targets: takes the oldest of the scene's frames in flight, which has

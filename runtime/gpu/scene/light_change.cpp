@@ -27,7 +27,8 @@ bool isFinite(const formats::LightRecord& record)
 
 } // namespace
 
-Result<LightChange> changeLight(const Scene& scene, uint32_t light, const formats::LightRecord& record)
+Result<LightChange> changeLight(const Scene& scene, uint32_t light, const formats::LightRecord& record,
+                                std::optional<float> steady_intensity)
 {
     const auto fail = [&](const std::string& detail) {
         return Error{Issue::usage, "", "light " + std::to_string(light), detail};
@@ -36,16 +37,16 @@ Result<LightChange> changeLight(const Scene& scene, uint32_t light, const format
         return fail("there is room for " + std::to_string(scene.lights->layout().capacity) + " (max_lights)");
     if (record.type > static_cast<uint32_t>(formats::LightType::spot))
         return fail("its type is none");
-    if (!isFinite(record))
+    if (!isFinite(record) || !std::isfinite(steady_intensity.value_or(0)))
         return fail("what it shall be is not finite");
     LightChange change{.light = light, .record = shared::lightFromRecord(record)};
-    change.record.intensity = change.record.intensity * scene.lights->exposure();
-    change.record.shadow_row = shared::kNoShadow;
+    const float exposure = scene.lights->exposure();
+    change.record.intensity = change.record.intensity * exposure;
+    change.steady_luminance =
+        shared::luminance(record.color * steady_intensity.value_or(record.intensity) * exposure);
     if (light >= scene.lights->loaded().size())
         return change;
     const shared::Light& loaded = scene.lights->loaded()[light];
-    if (loaded.type == record.type)
-        change.record.shadow_row = loaded.shadow_row;
     if (change.record.position == loaded.position)
         shared::copyReflector(change.record, loaded);
     return change;
@@ -57,7 +58,7 @@ void takeLights(const Scene& scene, std::span<const LightChange> lights)
     {
         scene.lights->set(scene.tables->lighting, change.light, change.record);
         if (scene.shadows != nullptr)
-            scene.shadows->change(change.light, change.record);
+            scene.shadows->change(change.light, change.steady_luminance);
         if (scene.surroundings != nullptr)
             scene.surroundings->change(change.light, change.record);
     }

@@ -3,7 +3,6 @@
 
 #include "formats/scene/reflectance.h"
 #include "formats/scene/scene_lighting.h"
-#include "runtime/gpu/scene/shadow_plan.h"
 
 namespace hearth::gpu
 {
@@ -111,7 +110,6 @@ shared::SceneLighting makeLighting(const formats::PackView& pack)
     shared::SceneLighting lighting =
         shared::sceneLighting(pack.lights(), shared::lightingBounds(pack.instances(), pack.meshes()));
     shared::addReflectors(lighting, pack.reflectors());
-    assignShadowRows(lighting);
     return lighting;
 }
 

@@ -36,7 +36,7 @@ uint32_t layerBits(const formats::MaterialLayersRecord& layers);
 
 shared::MaterialLayers makeLayers(const formats::MaterialLayersRecord& record);
 
-/// Compute lights and sky by shared::sceneLighting, with the shadow rows of the lights.
+/// Compute lights and sky by shared::sceneLighting, and the lights' reflectors.
 shared::SceneLighting makeLighting(const formats::PackView& pack);
 
 } // namespace hearth::gpu

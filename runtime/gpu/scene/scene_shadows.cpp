@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/scene/scene_shadows.h"
 
+#include "runtime/frame/shadow_faces.h"
 #include "runtime/gpu/scene/scene_shading.h"
 
+#include <algorithm>
 #include <string>
 
 namespace hearth::gpu
@@ -44,8 +46,7 @@ Status checkLimits(const Device& device, const ShadowOptions& options)
 ShadowDepthChoice SceneShadows::chooseDepth(const formats::PackView& pack, const Box3& bounds,
                                             const ShadowOptions& options)
 {
-    return chooseShadowDepth(makeShadowCasters(makeLighting(pack), bounds, options.spot_near), options,
-                             bounds, readShadowSpheres(pack));
+    return chooseShadowDepth(makeLighting(pack), options, bounds, readShadowSpheres(pack));
 }
 
 Result<std::unique_ptr<SceneShadows>> SceneShadows::create(const Device& device, VkRenderPass render_pass,
@@ -59,9 +60,8 @@ Result<std::unique_ptr<SceneShadows>> SceneShadows::create(const Device& device,
     std::unique_ptr<SceneShadows> shadows(new SceneShadows(device, pack, options, depth));
     SceneShadows& s = *shadows;
     s.bounds_ = bounds;
-    const shared::SceneLighting lighting = makeLighting(pack);
-    s.projections_ = makeShadowCasters(lighting, bounds, options.spot_near);
-    s.light_count_ = static_cast<uint32_t>(lighting.lights.size());
+    for (const shared::Light& light : makeLighting(pack).lights)
+        s.luminances_.push_back(shared::luminance(light.intensity));
     s.spheres_ = readShadowSpheres(pack);
     s.pack_sphere_count_ = s.spheres_.size();
     HEARTH_TRY(s.createImage());
@@ -125,23 +125,54 @@ void SceneShadows::track(std::span<const InstanceMove> moves,
     cache_.publish(groups);
 }
 
-void SceneShadows::change(uint32_t light, const shared::Light& record)
+void SceneShadows::change(uint32_t slot, float luminance)
 {
-    if (record.shadow_row < projections_.size())
-        return setShadowCasters(record, light, bounds_, options_.spot_near, projections_);
-    for (ShadowCaster& caster : projections_)
-        if (caster.light == light)
-            caster.light = ShadowCaster::kNoLight;
+    if (slot >= luminances_.size())
+        luminances_.resize(slot + 1);
+    luminances_[slot] = luminance;
+}
+
+void SceneShadows::choose(const shared::FrameView& view, std::span<const shared::Light> lights,
+                          shared::ShadowLights& chosen) const
+{
+    const uint32_t maps = bounds_.empty() ? 0 : options_.max_maps; // nothing is there to cast
+    chosen.choose(lights, luminances_, view.eye,
+                  {.maps = maps, .maps_of_a_sun = std::max(options_.splits, 1u)});
+}
+
+/// Return the projections of the chosen lights, by rank.
+std::vector<ShadowCaster> SceneShadows::makeCasters(const shared::FrameView& view,
+                                                    const shared::ShadowLights& chosen,
+                                                    std::span<const shared::Light> lights) const
+{
+    std::vector<ShadowCaster> casters;
+    casters.reserve(shared::kMaxShadowProjections);
+    for (const shared::ShadowLights::Holder& holder : chosen.holders())
+        addShadowCasters(lights[holder.slot], holder.slot, holder.row, bounds_, options_.spot_near, casters);
+    for (ShadowCaster& caster : casters)
+        caster.is_unseen = lights[caster.light].type == shared::kLightPoint &&
+                           !shared::mayShowFace(view, caster.projection, caster.range);
+    return casters;
+}
+
+void SceneShadows::chooseLights(const shared::FrameView& view, SceneLights& lights, MirroredTable& table)
+{
+    choose(view, lights.lights(), chosen_);
+    for (const shared::ShadowRowChange& change : chosen_.changes())
+        lights.setShadowRow(table, change.slot, change.row);
 }
 
 std::vector<ShadowCache::LayerUpdate> SceneShadows::findStale(const shared::FrameView& view,
+                                                              std::span<const shared::Light> lights,
                                                               std::span<const ShadowSphere> spheres,
                                                               std::span<const InstanceMove> moves) const
 {
     std::vector<ShadowSphere> all(spheres_.begin(),
                                   spheres_.begin() + static_cast<std::ptrdiff_t>(pack_sphere_count_));
     all.insert(all.end(), spheres.begin(), spheres.end());
-    ShadowPlan plan = planShadows(projections_, options_, view, all);
+    shared::ShadowLights chosen = chosen_;
+    choose(view, lights, chosen);
+    ShadowPlan plan = planShadows(makeCasters(view, chosen, lights), options_, view, all);
     ShadowCache cache = cache_;
     cache.move(moves);
     const std::span<const ShadowCache::LayerUpdate> stale = cache.plan(plan, view);
@@ -149,19 +180,20 @@ std::vector<ShadowCache::LayerUpdate> SceneShadows::findStale(const shared::Fram
 }
 
 std::span<const ShadowCache::LayerUpdate> SceneShadows::planFrame(const shared::FrameView& view,
+                                                                  std::span<const shared::Light> lights,
                                                                   std::span<const ShadowSphere> spheres)
 {
     spheres_.resize(pack_sphere_count_);
     spheres_.insert(spheres_.end(), spheres.begin(), spheres.end());
-    plan_ = planShadows(projections_, options_, view, spheres_);
+    plan_ = planShadows(makeCasters(view, chosen_, lights), options_, view, spheres_);
     const std::span<const ShadowCache::LayerUpdate> stale = cache_.plan(plan_, view);
-    statistics_ = {
-        .maps = plan_.map_count, .dropped_maps = plan_.dropped_maps, .unshadowed_lights = light_count_};
+    statistics_ = {.maps = plan_.map_count,
+                   .unseen_maps = plan_.unseen_maps,
+                   .dropped_maps = plan_.dropped_maps + chosen_.droppedMaps(),
+                   .shadowed_lights = plan_.shadowed_lights,
+                   .unshadowed_lights = chosen_.lightsOn() - plan_.shadowed_lights};
     for (const ShadowCache::LayerUpdate& map : stale)
         ++(map.copy_from ? statistics_.moved_maps : statistics_.drawn_maps);
-    // a point light has maps of all its faces or none
-    for (uint32_t row = 0; row < projections_.size(); ++row)
-        statistics_.unshadowed_lights -= projections_[row].face == 0 && plan_.block.lights[row].map_count > 0;
     return stale;
 }
 

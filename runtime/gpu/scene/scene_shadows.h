@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "runtime/frame/shadow_lights.h"
 #include "runtime/gpu/scene/scene.h"
 #include "runtime/gpu/scene/shadow_cache.h"
 
@@ -21,8 +22,10 @@ struct ShadowStatistics
     uint32_t maps = 0;              ///< in use
     uint32_t drawn_maps = 0;        ///< drawn by the frame; the others were cached
     uint32_t moved_maps = 0;        ///< maps in which the frame drew moving casters
+    uint32_t unseen_maps = 0;       ///< of faces that no point in view is in: not needed, and not in use
     uint32_t dropped_maps = 0;      ///< maps for which there was no layer
-    uint32_t unshadowed_lights = 0; ///< lights without a map: beyond the capacity
+    uint32_t shadowed_lights = 0;   ///< lights with maps
+    uint32_t unshadowed_lights = 0; ///< lights that are on, without a map: beyond the capacity
 };
 
 /// Shadow maps of one scene on one queue. A recorded frame counts as drawn: it must be submitted.
@@ -44,22 +47,32 @@ public:
     /// Pass the moves and the streamed groups of a frame, drawn or only prefetched, to the cache.
     void track(std::span<const InstanceMove> moves, std::span<const pack::ResidentGroups::Change> groups);
 
-    /// Change a light from this frame on; no effect if it casts no shadow.
-    void change(uint32_t light, const shared::Light& record);
+    /// Set the luminance of a light's intensity without flicker, by which lights are ranked, from this frame
+    /// on.
+    void change(uint32_t slot, float luminance);
+
+    /// Choose the lights that have maps in a frame, and write their rows to the table of lights.
+    void chooseLights(const shared::FrameView& view, SceneLights& lights, MirroredTable& table);
 
     /// Set a new pose from this frame on.
     void pose(const DeformedInstance& instance, const PoseRows& rows) { cache_.pose(instance, rows); }
 
-    /// Plan the maps of a frame; returns the maps that it must draw.
+    /// Plan the maps of the lights chosen last; returns the maps that the frame must draw.
     ///
+    /// lights   all slots
     /// spheres  beside the spheres of the pack
     std::span<const ShadowCache::LayerUpdate> planFrame(const shared::FrameView& view,
+                                                        std::span<const shared::Light> lights,
                                                         std::span<const ShadowSphere> spheres);
 
     /// Return the maps that planFrame would return for a frame with these moves; changes nothing.
     std::vector<ShadowCache::LayerUpdate> findStale(const shared::FrameView& view,
+                                                    std::span<const shared::Light> lights,
                                                     std::span<const ShadowSphere> spheres,
                                                     std::span<const InstanceMove> moves) const;
+
+    /// Lights chosen last.
+    std::span<const shared::ShadowLights::Holder> holders() const { return chosen_.holders(); }
 
     /// Plan of the last frame.
     const ShadowPlan& plan() const { return plan_; }
@@ -95,17 +108,21 @@ private:
         options_.depth = depth.depth;
     }
     Status createImage();
+    void choose(const shared::FrameView& view, std::span<const shared::Light> lights,
+                shared::ShadowLights& chosen) const;
+    std::vector<ShadowCaster> makeCasters(const shared::FrameView& view, const shared::ShadowLights& chosen,
+                                          std::span<const shared::Light> lights) const;
     uint32_t layerCount() const { return options_.moving_layers ? 2 * options_.max_maps : options_.max_maps; }
     Status createLayer(const Device& device, VkRenderPass render_pass, Layer& layer, uint32_t number) const;
 
     ShadowOptions options_; ///< with the depth that was chosen
     ShadowDepthChoice depth_;
     bool filters_;
-    Box3 bounds_; ///< of the scene
-    std::vector<ShadowCaster> projections_;
+    Box3 bounds_;                   ///< of the scene
+    std::vector<float> luminances_; ///< of slots, without flicker; 0: off
+    shared::ShadowLights chosen_;
     size_t pack_sphere_count_ = 0;
     std::vector<ShadowSphere> spheres_; ///< of the pack, then of the frame
-    uint32_t light_count_ = 0;          ///< with and without shadows
     ShadowCache cache_;
     ShadowPlan plan_;
     ShadowStatistics statistics_;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/scene/shadow_cache.h"
 
+#include "formats/base/assert.h"
 #include "runtime/frame/frame.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace hearth::gpu
@@ -124,6 +126,7 @@ ShadowCache::ShadowCache(const formats::PackView& pack, const ShadowOptions& opt
         instance_bounds_.push_back(worldBox(mesh_bounds_[instance.mesh], instance.world_from_object));
     }
     movers_.reserve(pack.instances().size());
+    wanted_.reserve(options.max_maps);
     stale_.reserve(2 * size_t{options.max_maps});
 }
 
@@ -200,28 +203,85 @@ bool ShadowCache::hasMoverIn(const shared::FrameView& casters) const
                        [&](uint32_t mover) { return intersects(casters, instance_bounds_[mover]); });
 }
 
+bool ShadowCache::hasSameContent(const Layer& layer, const Layer& other)
+{
+    return sameBits(layer.map, other.map) && sameBits(layer.light, other.light) &&
+           sameBits(layer.casters, other.casters);
+}
+
+/// Return what a map of the plan shows. Its casters are those of the view, before cullingKey.
+ShadowCache::Layer ShadowCache::makeLayer(const ShadowPlan& plan, uint32_t map,
+                                          const shared::FrameView& view) const
+{
+    const uint32_t row = plan.row_of[map];
+    Layer layer{.light = projectionKey(plan.block.lights[row]), .map = plan.block.maps[map]};
+    layer.map.layer = 0;
+    shared::FrameView seen = view;
+    seen.eye = shared::findEyeCell(view, plan.finest_m[row], plan.block.error_bias).eye;
+    layer.casters =
+        shared::makeCasterView(seen, layer.light, layer.map, plan.block.error_bias, plan.range_m[row]);
+    if (moving_layers_)
+        layer.casters.flags |= shared::kCullMoving;
+    return layer;
+}
+
+/// Give each map of the plan a layer of its own.
+///
+/// wanted  content of the maps
+void ShadowCache::claimLayers(ShadowPlan& plan, std::span<const Layer> wanted)
+{
+    ++plans_;
+    const auto claim = [&](size_t map, Layer& layer)
+    {
+        plan.block.maps[map].layer = static_cast<uint32_t>(&layer - layers_.data());
+        layer.last_use = plans_;
+    };
+    constexpr uint32_t kNone = 0xFFFFFFFF;
+    for (size_t map = 0; map < wanted.size(); ++map)
+    {
+        plan.block.maps[map].layer = kNone;
+        const auto found =
+            std::find_if(layers_.begin(), layers_.end(),
+                         [&](const Layer& layer)
+                         { return layer.last_use != plans_ && hasSameContent(layer, wanted[map]); });
+        if (found != layers_.end())
+            claim(map, *found);
+    }
+    for (size_t map = 0; map < wanted.size(); ++map)
+        if (plan.block.maps[map].layer == kNone)
+        {
+            Layer& oldest =
+                *std::min_element(layers_.begin(), layers_.end(),
+                                  [](const Layer& a, const Layer& b) { return a.last_use < b.last_use; });
+            HEARTH_ASSERT(oldest.last_use != plans_); // a plan has no more maps than there are layers
+            oldest = wanted[map];
+            claim(map, oldest);
+        }
+}
+
 std::span<const ShadowCache::LayerUpdate> ShadowCache::plan(ShadowPlan& plan, const shared::FrameView& view)
 {
     stale_.clear();
+    wanted_.clear();
+    std::array<shared::FrameView, shared::kMaxShadowMaps> casters;
     for (uint32_t i = 0; i < plan.map_count; ++i)
     {
-        const shared::ShadowMap map = plan.block.maps[i];
-        const uint32_t row = plan.row_of[i];
-        const shared::ShadowLight light = projectionKey(plan.block.lights[row]);
-        shared::FrameView seen = view;
-        seen.eye = shared::findEyeCell(view, plan.finest_m[row], plan.block.error_bias).eye;
-        shared::FrameView casters =
-            shared::makeCasterView(seen, light, map, plan.block.error_bias, plan.range_m[row]);
-        if (moving_layers_)
-            casters.flags |= shared::kCullMoving;
-        Layer& layer = layers_[map.layer];
-        if (!layer.drawn || !sameBits(layer.light, light) || !sameBits(layer.map, map) ||
-            !sameBits(layer.casters, cullingKey(casters)))
+        Layer& wanted = wanted_.emplace_back(makeLayer(plan, i, view));
+        casters[i] = wanted.casters;
+        wanted.casters = cullingKey(wanted.casters);
+    }
+    claimLayers(plan, wanted_);
+    for (uint32_t i = 0; i < plan.map_count; ++i)
+    {
+        const uint32_t number = plan.block.maps[i].layer;
+        Layer& layer = layers_[number];
+        if (!layer.drawn)
         {
-            layer = {.drawn = true, .light = light, .map = map, .casters = cullingKey(casters)};
-            stale_.push_back({.map = i, .layer = map.layer, .copy_from = {}, .casters = casters});
+            layer.drawn = true;
+            layer.moving_drawn = false;
+            stale_.push_back({.map = i, .layer = number, .copy_from = {}, .casters = casters[i]});
         }
-        planMoving(i, casters, layer, plan);
+        planMoving(i, casters[i], layer, plan);
     }
     return stale_;
 }

@@ -20,7 +20,7 @@ namespace hearth::gpu
 class ShadowCache
 {
 public:
-    /// With moving layers, map i has layer i for resting casters, and layer i + options.max_maps for all
+    /// With moving layers, a map that has layer i for resting casters has layer i + options.max_maps for all
     /// casters if any of them moves.
     ///
     /// pack  outlives the cache if publish is called
@@ -45,7 +45,9 @@ public:
     };
 
     /// Return the layers that must be drawn, in this order, so that every map of the plan is valid; they
-    /// count as drawn from now on. Valid until the next call.
+    /// count as drawn from now on. Valid until the next call. A map whose content is in a layer keeps it,
+    /// whatever its row and its place in the plan, and after frames without it, too; others get the layers
+    /// that have not been used for longest.
     ///
     /// plan  gets the layer of each map
     /// view  of the frame
@@ -63,8 +65,12 @@ private:
         shared::ShadowLight light{};
         shared::ShadowMap map{};
         shared::FrameView casters{};
+        uint64_t last_use = 0; ///< number of the plan that had it last
     };
+    static bool hasSameContent(const Layer& layer, const Layer& other);
 
+    Layer makeLayer(const ShadowPlan& plan, uint32_t map, const shared::FrameView& view) const;
+    void claimLayers(ShadowPlan& plan, std::span<const Layer> wanted);
     void place(uint32_t instance, const Box3& box, float scale);
     void invalidate(const Box3& box, bool moves);
     void invalidateFiner(size_t instance, float error_object);
@@ -83,7 +89,9 @@ private:
     std::vector<uint32_t> movers_;
     bool moving_layers_;
     std::vector<Layer> layers_;
+    std::vector<Layer> wanted_; ///< by the maps of a plan; scratch
     std::vector<LayerUpdate> stale_;
+    uint64_t plans_ = 0; ///< made so far
 };
 
 } // namespace hearth::gpu

@@ -3,6 +3,7 @@
 
 #include "formats/base/assert.h"
 #include "runtime/frame/shadow_cull.h"
+#include "runtime/frame/shadow_lights.h"
 
 #include <algorithm>
 #include <array>
@@ -37,25 +38,31 @@ float reachAlongAxis(const ShadowCaster& caster, const Box3& scene)
     return caster.range > 0 ? std::min(reach, caster.range) : reach;
 }
 
-/// Assigns the layers of a frame, row by row.
+/// Takes the maps of a frame, row by row.
 class ShadowPlanner
 {
 public:
     ShadowPlanner(const ShadowOptions& options, ShadowPlan& plan) : options_(options), plan_(plan) {}
 
     /// reserved  layers that are left for the rows that follow
-    void begin(uint32_t row, const ShadowCaster& caster, uint32_t reserved)
+    void begin(const ShadowCaster& caster, uint32_t reserved)
     {
-        row_ = row;
+        row_ = caster.row;
+        is_unseen_ = caster.is_unseen;
+        is_empty_ = true;
         reserved_ = reserved;
-        shared::ShadowLight& projection = plan_.block.lights[row];
+        shared::ShadowLight& projection = plan_.block.lights[row_];
         projection = caster.projection;
         projection.first_map = plan_.map_count;
         projection.depth_quantum = depthStep(options_.depth);
-        plan_.range_m[row] = caster.range;
+        plan_.range_m[row_] = caster.range;
     }
 
-    bool hasLayers(uint32_t count) const { return plan_.map_count + count <= options_.max_maps; }
+    /// Unseen maps count: what others have shall not depend on the direction of the view.
+    bool hasLayers(uint32_t count) const
+    {
+        return plan_.map_count + plan_.unseen_maps + count <= options_.max_maps;
+    }
 
     /// texel_m  metres per texel of the map
     void add(shared::ShadowMap map, float texel_m)
@@ -66,7 +73,13 @@ public:
             return;
         }
         float& finest = plan_.finest_m[row_];
-        finest = plan_.block.lights[row_].map_count == 0 ? texel_m : std::min(finest, texel_m);
+        finest = is_empty_ ? texel_m : std::min(finest, texel_m);
+        is_empty_ = false;
+        if (is_unseen_)
+        {
+            ++plan_.unseen_maps;
+            return;
+        }
         map.layer = plan_.map_count;
         plan_.row_of[plan_.map_count] = row_;
         plan_.block.maps[plan_.map_count++] = map;
@@ -92,6 +105,8 @@ private:
     ShadowPlan& plan_;
     uint32_t row_ = 0;
     uint32_t reserved_ = 0;
+    bool is_unseen_ = false;
+    bool is_empty_ = true; ///< the row has no map yet
 };
 
 bool affects(const ShadowSphere& sphere, const ShadowCaster& light)
@@ -146,8 +161,8 @@ size_t countRowsOfLight(std::span<const ShadowCaster> casters)
 
 /// Plan the maps of one light.
 ///
-/// casters  rows of the light, from `row` on
-void planLight(uint32_t row, std::span<const ShadowCaster> casters, const ShadowOptions& options,
+/// casters  of the light
+void planLight(std::span<const ShadowCaster> casters, const ShadowOptions& options,
                const shared::FrameView& view, std::span<const ShadowSphere> spheres, ShadowPlan& plan)
 {
     ShadowPlanner planner(options, plan);
@@ -158,16 +173,37 @@ void planLight(uint32_t row, std::span<const ShadowCaster> casters, const Shadow
         plan.dropped_maps += count;
     for (uint32_t i = 0; i < count; ++i)
     {
-        planner.begin(row + i, casters[i], count - 1 - i);
+        planner.begin(casters[i], count - 1 - i);
         if (fits && casters[i].tangent == 0)
             planSun(casters[i], options, view, spheres, planner);
         else if (fits)
             planPerspective(casters[i], options, spheres, planner);
         planner.end();
     }
-    const std::span finest = std::span(plan.finest_m).subspan(row, count);
+    const std::span finest = std::span(plan.finest_m).subspan(casters.front().row, count);
     // one eye for all faces: on both sides of a seam the casters are the same
     std::fill(finest.begin(), finest.end(), *std::min_element(finest.begin(), finest.end()));
+    plan.shadowed_lights += finest.front() > 0 ? 1 : 0;
+}
+
+/// Return the largest step of 16-bit depths in the maps of a light, in texels.
+///
+/// casters  of the light, from row 0 on
+float findDepthStep(std::span<const ShadowCaster> casters, const ShadowOptions& options, const Box3& scene,
+                    const shared::FrameView& view, std::span<const ShadowSphere> spheres)
+{
+    float step = 0;
+    const ShadowPlan plan = planShadows(casters, options, view, spheres);
+    for (uint32_t i = 0; i < plan.map_count; ++i)
+    {
+        const ShadowCaster& caster = casters[plan.row_of[i]];
+        const shared::ShadowLight& light = caster.projection;
+        // texels of a spot grow with the distance, steps with its square
+        const float distance = light.perspective != 0 ? reachAlongAxis(caster, scene) : 1;
+        step = std::max(step,
+                        depthStep(options.depth) * distance * plan.block.maps[i].density / light.depth_step);
+    }
+    return step;
 }
 
 } // namespace
@@ -184,82 +220,46 @@ std::vector<ShadowSphere> readShadowSpheres(const formats::PackView& pack)
     return spheres;
 }
 
-uint32_t countShadowRows(const shared::Light& light)
+void addShadowCasters(const shared::Light& light, uint32_t slot, uint32_t row, const Box3& scene, float near,
+                      std::vector<ShadowCaster>& casters)
 {
-    return hasType(light, formats::LightType::point) ? shared::kPointFaces : 1;
-}
-
-void assignShadowRows(shared::SceneLighting& lighting)
-{
-    uint32_t row = 0;
-    std::vector<shared::Light>& lights = lighting.lights;
-    for (shared::Light& light : lights)
-        light.shadow_row = shared::kNoShadow;
-    for (const formats::LightType type :
-         {formats::LightType::directional, formats::LightType::spot, formats::LightType::point})
-        for (shared::Light& light : lights)
-            if (hasType(light, type) && row + countShadowRows(light) <= shared::kMaxShadowProjections)
-            {
-                light.shadow_row = row;
-                row += countShadowRows(light);
-            }
-}
-
-void setShadowCasters(const shared::Light& light, uint32_t number, const Box3& scene, float near,
-                      std::span<ShadowCaster> casters)
-{
-    const std::span rows = casters.subspan(light.shadow_row, countShadowRows(light));
     if (hasType(light, formats::LightType::directional))
     {
-        rows[0] = {.light = number, .projection = shared::makeSunShadow(light.direction, scene)};
+        casters.push_back(
+            {.light = slot, .row = row, .projection = shared::makeSunShadow(light.direction, scene)});
         return;
     }
     if (hasType(light, formats::LightType::spot))
     {
         const float cos_outer = std::clamp(-light.cone_offset / light.cone_scale, 0.0f, 1.0f);
-        rows[0] = {.light = number,
-                   .projection = shared::makeSpotShadow(light.position, light.direction, near),
-                   // a spot with an empty cone has a map all the same
-                   .tangent = std::max(shared::coneTangent(std::acos(cos_outer)), 1e-3f),
-                   .range = light.range};
+        casters.push_back({.light = slot,
+                           .row = row,
+                           .projection = shared::makeSpotShadow(light.position, light.direction, near),
+                           // a spot with an empty cone has a map all the same
+                           .tangent = std::max(shared::coneTangent(std::acos(cos_outer)), 1e-3f),
+                           .range = light.range});
         return;
     }
     for (uint32_t face = 0; face < shared::kPointFaces; ++face)
-        rows[face] = {.light = number,
-                      .face = face,
-                      .projection = shared::makePointShadow(light.position, face, near),
-                      .tangent = shared::kFaceTangent,
-                      .range = light.range};
-}
-
-std::vector<ShadowCaster> makeShadowCasters(const shared::SceneLighting& lighting, const Box3& scene,
-                                            float near)
-{
-    std::vector<ShadowCaster> casters;
-    if (scene.empty())
-        return casters;
-    for (uint32_t i = 0; i < lighting.lights.size(); ++i)
-    {
-        const shared::Light& light = lighting.lights[i];
-        if (light.shadow_row == shared::kNoShadow)
-            continue;
-        casters.resize(std::max<size_t>(casters.size(), light.shadow_row + countShadowRows(light)));
-        setShadowCasters(light, i, scene, near, casters);
-    }
-    return casters;
+        casters.push_back({.light = slot,
+                           .row = row + face,
+                           .face = face,
+                           .projection = shared::makePointShadow(light.position, face, near),
+                           .tangent = shared::kFaceTangent,
+                           .range = light.range});
 }
 
 uint32_t countShadowMaps(const shared::SceneLighting& lighting, uint32_t splits, size_t spheres)
 {
     size_t count = 0;
     for (const shared::Light& light : lighting.lights)
-        if (light.shadow_row != shared::kNoShadow)
-            count += hasType(light, formats::LightType::directional) ? splits + spheres
-                                                                     : countShadowRows(light) * (1 + spheres);
+        count += hasType(light, formats::LightType::directional)
+                     ? splits + spheres
+                     : shared::countShadowRows(light) * (1 + spheres);
     return static_cast<uint32_t>(std::min<size_t>(count, shared::kMaxShadowMaps));
 }
 
-ShadowDepthChoice chooseShadowDepth(std::span<const ShadowCaster> casters, const ShadowOptions& options,
+ShadowDepthChoice chooseShadowDepth(const shared::SceneLighting& lighting, const ShadowOptions& options,
                                     const Box3& scene, std::span<const ShadowSphere> spheres)
 {
     constexpr float kLensRad = 1.0472f;
@@ -269,18 +269,15 @@ ShadowDepthChoice chooseShadowDepth(std::span<const ShadowCaster> casters, const
     const Float3 eye = scene.center();
     const shared::FrameView view = shared::makeFrameView(
         {.position = eye, .target = eye + Float3{0, 0, -1}, .y_fov_rad = kLensRad}, 1280, 720, 1, 0);
-    const ShadowPlan plan = planShadows(casters, options, view, spheres);
-    for (uint32_t i = 0; i < plan.map_count; ++i)
+    std::vector<ShadowCaster> casters;
+    for (uint32_t light = 0; light < lighting.lights.size(); ++light)
     {
-        const ShadowCaster& caster = casters[plan.row_of[i]];
-        const shared::ShadowLight& light = caster.projection;
-        // texels of a spot grow with the distance, steps with its square
-        const float distance = light.perspective != 0 ? reachAlongAxis(caster, scene) : 1;
-        const float texels =
-            depthStep(options.depth) * distance * plan.block.maps[i].density / light.depth_step;
-        if (choice.light == kInvalidIndex || texels > choice.step_texels)
+        casters.clear();
+        addShadowCasters(lighting.lights[light], light, 0, scene, options.spot_near, casters);
+        const float texels = findDepthStep(casters, options, scene, view, spheres);
+        if (texels > choice.step_texels)
         {
-            choice.light = caster.light;
+            choice.light = light;
             choice.step_texels = texels;
         }
     }
@@ -295,12 +292,11 @@ ShadowPlan planShadows(std::span<const ShadowCaster> casters, const ShadowOption
     ShadowPlan plan;
     plan.block.error_bias = options.error_bias;
     plan.block.texel_size = 1 / static_cast<float>(options.texels);
-    for (size_t row = 0; row < casters.size();)
+    while (!casters.empty())
     {
-        const size_t count = countRowsOfLight(casters.subspan(row));
-        if (casters[row].light != ShadowCaster::kNoLight)
-            planLight(static_cast<uint32_t>(row), casters.subspan(row, count), options, view, spheres, plan);
-        row += count;
+        const size_t count = countRowsOfLight(casters);
+        planLight(casters.first(count), options, view, spheres, plan);
+        casters = casters.subspan(count);
     }
     return plan;
 }

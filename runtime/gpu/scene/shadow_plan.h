@@ -67,56 +67,45 @@ struct ShadowSphere
     uint32_t texels = 0;
 };
 
-/// Projection of a light that casts shadows; its index in a list of them is its row of the ShadowBlock. The
-/// faces of a point light follow each other.
+/// Projection of a light that casts shadows. The faces of a point light follow each other, also in their
+/// rows.
 struct ShadowCaster
 {
-    static constexpr uint32_t kNoLight = 0xFFFFFFFF; ///< the row has lost its light, and gets no map
-
     uint32_t light = 0; ///< slot
+    uint32_t row = 0;   ///< of the ShadowBlock
     uint32_t face = 0;  ///< of a point light
     shared::ShadowLight projection{};
-    float tangent = 0; ///< half-width of a spot or of a face; 0: a sun
-    float range = 0;   ///< metres; 0: unlimited
+    float tangent = 0;      ///< half-width of a spot or of a face; 0: a sun
+    float range = 0;        ///< metres; 0: unlimited
+    bool is_unseen = false; ///< no point in view is in the face, which needs no map
 };
 
 /// Return the spheres that artists placed in the scene.
 std::vector<ShadowSphere> readShadowSpheres(const formats::PackView& pack);
 
-/// Return the number of rows of a light that casts shadows.
-uint32_t countShadowRows(const shared::Light& light);
-
-/// Assign shadow rows to the lights that cast shadows: the suns, then the spots, then the point lights, as
-/// many as fit.
-void assignShadowRows(shared::SceneLighting& lighting);
-
-/// Set the rows of a light that has some.
+/// Append the projections of a light.
 ///
-/// number  index of the light
-/// near    ShadowOptions::spot_near
-/// casters [rows in use]
-void setShadowCasters(const shared::Light& light, uint32_t number, const Box3& scene, float near,
-                      std::span<ShadowCaster> casters);
+/// row    first of its rows
+/// scene  world bounds of all casters and receivers, not empty
+/// near   ShadowOptions::spot_near
+void addShadowCasters(const shared::Light& light, uint32_t slot, uint32_t row, const Box3& scene, float near,
+                      std::vector<ShadowCaster>& casters);
 
-/// Return the projections of the lights that have rows, in the order of the rows.
-///
-/// scene      world bounds of all casters and receivers; if empty nothing casts
-std::vector<ShadowCaster> makeShadowCasters(const shared::SceneLighting& lighting, const Box3& scene,
-                                            float near);
-
-/// Return the number of maps of a frame that has them all, up to shared::kMaxShadowMaps.
+/// Return the number of maps of a frame in which all lights have theirs, up to shared::kMaxShadowMaps.
 ///
 /// spheres    number of spheres, each of all lights
 uint32_t countShadowMaps(const shared::SceneLighting& lighting, uint32_t splits, size_t spheres);
 
-/// Shadow maps of a frame. Layers are assigned in the order light, sphere, so unchanged maps keep their
-/// layers.
+/// Shadow maps of a frame. The shadow cache assigns their layers.
 struct ShadowPlan
 {
     shared::ShadowBlock block{};                           ///< the maps of each light are sorted by density
     uint32_t map_count = 0;                                ///< maps, and layers in use
+    uint32_t unseen_maps = 0;                              ///< left out, of faces that no point in view is in
+    uint32_t shadowed_lights = 0;                          ///< lights with all the maps that they need
     std::array<uint32_t, shared::kMaxShadowMaps> row_of{}; ///< light row of each map
-    /// Metres of the finest texel of each row that has maps: all faces of a light have the finest of them.
+    /// Metres of the finest texel of each row that has maps: all faces of a light have the finest of them, be
+    /// they seen or not.
     std::array<float, shared::kMaxShadowProjections> finest_m{};
     std::array<float, shared::kMaxShadowProjections> range_m{}; ///< of each row; 0: unlimited
     uint32_t dropped_maps = 0;                                  ///< maps for which there was no layer
@@ -139,20 +128,22 @@ struct ShadowDepthChoice
 };
 
 /// Choose the format of the depths: as the options say, but 32 bits if a step of 16 bits is larger than
-/// kMaxDepthStepTexels in any map. A step of a sun is 1 / 65535 of the scene's depth along its rays; one of a
+/// kMaxDepthStepTexels in any map that a light may have. A step of a sun is 1 / 65535 of the scene's depth along its rays; one of a
 /// spot or point light is z^2 / (near * 65535) at a distance of z along the map's axis, up to the light's
 /// range or the end of the scene. Splits are taken as those of a lens of 60 degrees: those of narrower lenses
-/// and spheres of frames may have finer texels. There shadows begin later, but no surface shadows itself.
+/// and spheres of frames may have finer texels, and so may lights that frames add. There shadows begin later,
+/// but no surface shadows itself.
 ///
 /// scene    world bounds
 /// spheres  of the pack
-ShadowDepthChoice chooseShadowDepth(std::span<const ShadowCaster> casters, const ShadowOptions& options,
+ShadowDepthChoice chooseShadowDepth(const shared::SceneLighting& lighting, const ShadowOptions& options,
                                     const Box3& scene, std::span<const ShadowSphere> spheres);
 
 /// Plan the maps of a frame. Suns get the spheres and the splits, spots their whole cone and the spheres that
 /// intersect it, point lights all their faces, or none if there are too few layers, and the parts of spheres
 /// in each face.
 ///
+/// casters    whole lights, in the order in which they get layers
 /// view       of the frame
 /// spheres    spheres of lights that cast no shadow are ignored
 ShadowPlan planShadows(std::span<const ShadowCaster> casters, const ShadowOptions& options,

@@ -351,7 +351,7 @@ private:
                 pass.record(device, commands, scene_, targets_, settings_.light_method);
                 return success();
             }));
-        light_counts_ = {settings_.light_method, gpu::readLightCounts(scene_)};
+        light_counts_ = viewer::countLights(scene_, settings_.light_method);
         return success();
     }
 

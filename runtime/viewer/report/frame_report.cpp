@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/report/frame_report.h"
 
+#include "formats/gpu_shared/light_cells.h"
 #include "formats/gpu_shared/material_tiles.h"
+#include "runtime/gpu/statistics/light_statistics_pass.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -179,10 +181,27 @@ std::string formatLights(const LightCounts& lights)
            ",\"overflows\":" + std::to_string(c.overflows) + ",\"pixels\":" + std::to_string(c.pixels) +
            ",\"evaluated\":" + join(c.evaluated_low, c.evaluated_high) +
            ",\"reaching\":" + join(c.reaching_low, c.reaching_high) +
-           ",\"longest\":" + std::to_string(c.longest) + "}";
+           ",\"longest\":" + std::to_string(c.longest) + ",\"shadowed\":" + std::to_string(lights.shadowed) +
+           ",\"unshadowed\":" + std::to_string(lights.unshadowed) + "}";
 }
 
 } // namespace
+
+LightCounts countLights(const gpu::Scene& scene, gpu::LightMethod method)
+{
+    LightCounts counts{.method = method, .counts = gpu::readLightCounts(scene)};
+    const std::span<const shared::Light> lights = scene.lights->lights();
+    if (scene.shadows != nullptr)
+    {
+        counts.shadowed = scene.shadows->statistics().shadowed_lights;
+        counts.unshadowed = scene.shadows->statistics().unshadowed_lights;
+    }
+    else
+        counts.unshadowed = static_cast<uint32_t>(std::count_if(lights.begin(), lights.end(),
+                                                                [](const shared::Light& light)
+                                                                { return !shared::isLightOff(light); }));
+    return counts;
+}
 
 std::string formatReport(const FrameReport& report, const formats::PackView& pack)
 {

@@ -62,7 +62,12 @@ struct LightCounts
 {
     gpu::LightMethod method = gpu::LightMethod::practical;
     shared::LightListCounts counts{};
+    uint32_t shadowed = 0;   ///< lights with shadow maps
+    uint32_t unshadowed = 0; ///< lights that are on, without
 };
+
+/// Gather the counts of a frame whose statistics have been recorded and executed.
+LightCounts countLights(const gpu::Scene& scene, gpu::LightMethod method);
 
 struct FrameReport
 {

@@ -29,7 +29,9 @@ std::string formatMembers(const ShadowCounts& counts)
     { text.append(text.empty() ? "\"" : ",\"").append(name).append("\":").append(std::to_string(value)); };
     add("maps", counts.maps.maps);
     add("drawn_maps", counts.maps.drawn_maps);
+    add("unseen_maps", counts.maps.unseen_maps);
     add("dropped_maps", counts.maps.dropped_maps);
+    add("shadowed_lights", counts.maps.shadowed_lights);
     add("unshadowed_lights", counts.maps.unshadowed_lights);
     add("caster_clusters", counts.caster_clusters);
     add("dropped_clusters", counts.dropped_clusters);

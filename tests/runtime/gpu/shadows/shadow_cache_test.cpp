@@ -155,8 +155,8 @@ TEST_F(ShadowCacheTest, keptMapsAreFreshOnesWhileThingsMove)
             options.moves = moves;
             options.shadow_spheres = walk.spheres();
             fresh->shadows->forget();
-            const auto described =
-                kept->shadows->findStale(makeView(*kept, walk.camera(), options), walk.spheres(), moves);
+            const auto described = kept->shadows->findStale(makeView(*kept, walk.camera(), options),
+                                                            kept->lights->lights(), walk.spheres(), moves);
             const Image kept_image = draw(*kept, walk.camera(), options);
             const auto moving = std::count_if(described.begin(), described.end(),
                                               [](const auto& map) { return map.copy_from.has_value(); });

@@ -29,8 +29,19 @@ shared::SceneLighting makeLights(std::initializer_list<LightType> types)
         light.cone_scale = 10;
         light.cone_offset = -7.0710678f;
     }
-    gpu::assignShadowRows(lighting);
     return lighting;
+}
+
+/// Suns, then spots, then lamps, with rows one after the other.
+std::vector<gpu::ShadowCaster> makeCasters(const shared::SceneLighting& lighting, float near)
+{
+    std::vector<gpu::ShadowCaster> casters;
+    for (const LightType type : {LightType::directional, LightType::spot, LightType::point})
+        for (uint32_t i = 0; i < lighting.lights.size(); ++i)
+            if (lighting.lights[i].type == static_cast<uint32_t>(type))
+                gpu::addShadowCasters(lighting.lights[i], i, static_cast<uint32_t>(casters.size()), kScene,
+                                      near, casters);
+    return casters;
 }
 
 gpu::ShadowPlan makePlan(const shared::SceneLighting& lighting, const gpu::ShadowOptions& options,
@@ -38,8 +49,7 @@ gpu::ShadowPlan makePlan(const shared::SceneLighting& lighting, const gpu::Shado
 {
     const shared::FrameView view =
         shared::makeFrameView({.position = {0, 2, 8}, .target = {0, 0, 0}}, 640, 480, 1, 1);
-    return gpu::planShadows(gpu::makeShadowCasters(lighting, kScene, options.spot_near), options, view,
-                            spheres);
+    return gpu::planShadows(makeCasters(lighting, options.spot_near), options, view, spheres);
 }
 
 std::vector<uint32_t> getSizes(const gpu::ShadowPlan& plan, uint32_t row)
@@ -53,50 +63,50 @@ std::vector<uint32_t> getSizes(const gpu::ShadowPlan& plan, uint32_t row)
 
 } // namespace
 
-std::vector<uint32_t> getRows(const shared::SceneLighting& lighting)
+TEST(ShadowCasters, areOneOfASunAndOfASpotAndSixOfAPointLight)
 {
-    std::vector<uint32_t> rows;
-    for (uint32_t i = 0; i < lighting.lights.size(); ++i)
-        rows.push_back(lighting.lights[i].shadow_row);
-    return rows;
-}
-
-TEST(ShadowRows, areGivenToSunsThenToSpotsThenToPointLights)
-{
-    shared::SceneLighting lighting = makeLights({LightType::spot, LightType::point, LightType::directional,
-                                                 LightType::point, LightType::spot, LightType::directional});
-    lighting.lights[3].range = 7;
-    EXPECT_EQ(getRows(lighting), (std::vector<uint32_t>{2, 4, 0, 10, 3, 1}));
-    const auto casting = gpu::makeShadowCasters(lighting, kScene, 0.1f);
-    ASSERT_EQ(casting.size(), 16u);
-    EXPECT_EQ(casting[0].light, 2u);
-    EXPECT_EQ(casting[0].tangent, 0);
-    EXPECT_EQ(casting[2].light, 0u);
-    EXPECT_NEAR(casting[2].tangent, 1, 1e-4f);
+    shared::SceneLighting lighting = makeLights({LightType::directional, LightType::spot, LightType::point});
+    lighting.lights[2].range = 7;
+    const std::vector<gpu::ShadowCaster> casters = makeCasters(lighting, 0.1f);
+    ASSERT_EQ(casters.size(), 8u);
+    for (uint32_t row = 0; row < casters.size(); ++row)
+    {
+        EXPECT_EQ(casters[row].row, row);
+        EXPECT_EQ(casters[row].light, std::min(row, 2u));
+    }
+    EXPECT_EQ(casters[0].tangent, 0);
+    EXPECT_NEAR(casters[1].tangent, 1, 1e-4f);
     for (uint32_t face = 0; face < 6; ++face)
     {
-        EXPECT_EQ(casting[10 + face].light, 3u);
-        EXPECT_EQ(casting[10 + face].face, face);
-        EXPECT_EQ(casting[10 + face].range, 7);
-        EXPECT_EQ(casting[10 + face].projection.origin, (Float3{0, 4, 0}));
+        const gpu::ShadowCaster& caster = casters[2 + face];
+        EXPECT_EQ(caster.face, face);
+        EXPECT_EQ(caster.range, 7);
+        EXPECT_EQ(caster.projection.origin, (Float3{0, 4, 0}));
         for (uint32_t other = 0; other < face; ++other)
-            EXPECT_LE(dot(casting[10 + face].projection.direction, casting[10 + other].projection.direction),
-                      0);
+            EXPECT_LE(dot(caster.projection.direction, casters[2 + other].projection.direction), 0);
     }
-    EXPECT_TRUE(gpu::makeShadowCasters(lighting, {}, 0.1f).empty()) << "nothing is there to cast";
 }
 
-TEST(ShadowRows, areGivenToWholePointLightsOnly)
+TEST(ShadowPlan, leavesOutUnseenFacesAndKeepsTheirPlace)
 {
-    shared::SceneLighting lighting{};
-    lighting.lights.resize(12);
-    for (shared::Light& light : lighting.lights)
-        light.type = static_cast<uint32_t>(LightType::point);
-    lighting.lights[11].type = static_cast<uint32_t>(LightType::spot);
-    gpu::assignShadowRows(lighting);
-    // 64 rows: the spot, then ten times six
-    EXPECT_EQ(getRows(lighting),
-              (std::vector<uint32_t>{1, 7, 13, 19, 25, 31, 37, 43, 49, 55, shared::kNoShadow, 0}));
+    const auto lighting = makeLights({LightType::point, LightType::point});
+    std::vector<gpu::ShadowCaster> casters = makeCasters(lighting, 0.1f);
+    const shared::FrameView view = shared::makeFrameView({.position = {0, 2, 8}}, 640, 480, 1, 1);
+    const ShadowSphere sphere{.center = {0, 1, 0}, .radius = 0.5f, .light = 0}; // in the face that looks down
+    const gpu::ShadowOptions options{.max_maps = 13};
+    const gpu::ShadowPlan all = gpu::planShadows(casters, options, view, {&sphere, 1});
+    casters[0].is_unseen = casters[3].is_unseen = true;
+    const gpu::ShadowPlan seen = gpu::planShadows(casters, options, view, {&sphere, 1});
+    EXPECT_EQ(all.map_count, 13u);
+    EXPECT_EQ(seen.map_count, 10u);
+    EXPECT_EQ(seen.unseen_maps, 3u);
+    EXPECT_EQ(seen.dropped_maps, 0u);
+    EXPECT_EQ(seen.finest_m, all.finest_m) << "maps do not change as their neighbours go out of view";
+    EXPECT_EQ(seen.block.lights[0].map_count, 0u);
+    EXPECT_EQ(seen.block.lights[3].map_count, 0u);
+    EXPECT_EQ(seen.shadowed_lights, 2u);
+    // the other lamp gets no layers in place of the faces that are not in view
+    EXPECT_EQ(gpu::planShadows(casters, {.max_maps = 12}, view, {&sphere, 1}).shadowed_lights, 1u);
 }
 
 TEST(ShadowPlan, hasSplitsOfSunsConesOfSpotsAndSpheresOfBoth)
@@ -189,8 +199,7 @@ TEST(ShadowPlan, countsTheMapsThatItWouldHave)
 gpu::ShadowDepthChoice chooseDepth(const shared::SceneLighting& lighting, const gpu::ShadowOptions& options,
                                    const Box3& scene = kScene, std::span<const ShadowSphere> spheres = {})
 {
-    return gpu::chooseShadowDepth(gpu::makeShadowCasters(lighting, scene, options.spot_near), options, scene,
-                                  spheres);
+    return gpu::chooseShadowDepth(lighting, options, scene, spheres);
 }
 
 TEST(ShadowDepthChoice, has32BitsUnlessOptionsAskForLess)
