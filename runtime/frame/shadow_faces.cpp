@@ -61,8 +61,9 @@ std::array<Double3, 5> makeViewPlanes(const FrameView& view)
     return planes;
 }
 
-/// True if all of a pyramid, or the ball around its apex, lies behind a plane through the eye, and as far from
-/// it as the margin asks for, which grows with the distance from the eye. A pyramid does if its corners do.
+/// True if all of a pyramid, or the ball around its apex, lies behind a plane through the eye, and as far
+/// from it as the margin asks for, which grows with the distance from the eye. A pyramid does if its corners
+/// do.
 bool isBehind(const Pyramid& pyramid, float range, Double3 plane, double margin)
 {
     const auto reach = [&](Double3 p) { return dot(plane, p) + margin * length(p); };

@@ -106,6 +106,14 @@ bool ShadowLights::isBefore(const Candidate& a, const Candidate& b)
     return a.holds != b.holds ? a.holds : a.slot < b.slot;
 }
 
+ShadowLights::ShadowLights(uint32_t max_lights)
+{
+    holders_.reserve(kMaxShadowProjections);
+    last_.reserve(kMaxShadowProjections);
+    changes_.reserve(2 * kMaxShadowProjections);
+    candidates_.reserve(max_lights);
+}
+
 /// List the lights that are on, by falling weight.
 void ShadowLights::rank(std::span<const Light> lights, std::span<const float> luminances, Float3 eye)
 {
@@ -138,17 +146,21 @@ void ShadowLights::choose(std::span<const Light> lights, std::span<const float> 
     dropped_maps_ = 0;
     uint32_t rows_left = kMaxShadowProjections;
     uint32_t maps_left = budget.maps;
+    uint32_t unlimited_rows_left = kMaxShadowProjections; // with any number of maps
     for (const Candidate& candidate : candidates_)
     {
         const uint32_t type = lights[candidate.slot].type;
         const uint32_t rows = countRows(type);
         const bool is_sun = type == kLightDirectional;
         const uint32_t maps = is_sun ? budget.maps_of_a_sun : rows;
-        if (rows > rows_left || (is_sun ? 1 : maps) > maps_left)
+        const bool fits = rows <= rows_left && (is_sun ? 1 : maps) <= maps_left;
+        if (rows <= unlimited_rows_left)
         {
-            dropped_maps_ += maps;
-            continue;
+            unlimited_rows_left -= rows;
+            dropped_maps_ += fits ? 0 : maps;
         }
+        if (!fits)
+            continue;
         rows_left -= rows;
         maps_left -= std::min(maps, maps_left);
         const Holder* const held = candidate.holds ? findSlot(last_, candidate.slot) : nullptr;

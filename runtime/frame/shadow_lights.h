@@ -47,7 +47,8 @@ struct ShadowRowChange
 class ShadowLights
 {
 public:
-    ShadowLights() = default;
+    /// max_lights  slots; choices allocate nothing
+    explicit ShadowLights(uint32_t max_lights);
 
     /// Choose the lights of the next frame.
     ///
@@ -66,7 +67,8 @@ public:
     std::span<const Holder> holders() const { return holders_; } ///< by falling weight
     std::span<const ShadowRowChange> changes() const { return changes_; }
     uint32_t lightsOn() const { return static_cast<uint32_t>(candidates_.size()); }
-    uint32_t droppedMaps() const { return dropped_maps_; } ///< of the lights that were not chosen
+    /// Maps for which ShadowBudget::maps is too small, of lights for which there would be rows.
+    uint32_t droppedMaps() const { return dropped_maps_; }
 
 private:
     struct Candidate

@@ -50,7 +50,8 @@ Status ShadowPass::createMaps(const Device& device, const formats::PackView& pac
                               VkCommandBuffer commands, Scene& scene) const
 {
     HEARTH_ASSIGN_OR_RETURN(scene.shadows,
-                            SceneShadows::create(device, render_pass_, pack, scene.bounds, options, depth));
+                            SceneShadows::create(device, render_pass_, pack, scene.bounds,
+                                                 scene.lights->layout().capacity, options, depth));
     const SceneShadows& shadows = *scene.shadows;
     if (scene.deformation != nullptr)
     {

@@ -51,13 +51,13 @@ ShadowDepthChoice SceneShadows::chooseDepth(const formats::PackView& pack, const
 
 Result<std::unique_ptr<SceneShadows>> SceneShadows::create(const Device& device, VkRenderPass render_pass,
                                                            const formats::PackView& pack, const Box3& bounds,
-                                                           const ShadowOptions& options,
+                                                           uint32_t max_lights, const ShadowOptions& options,
                                                            const ShadowDepthChoice& depth)
 {
     HEARTH_ASSERT(options.max_maps <= shared::kMaxShadowMaps && options.splits <= kMaxSplits &&
                   options.error_bias >= 1 && options.spot_near > 0);
     HEARTH_TRY(checkLimits(device, options));
-    std::unique_ptr<SceneShadows> shadows(new SceneShadows(device, pack, options, depth));
+    std::unique_ptr<SceneShadows> shadows(new SceneShadows(device, pack, max_lights, options, depth));
     SceneShadows& s = *shadows;
     s.bounds_ = bounds;
     for (const shared::Light& light : makeLighting(pack).lights)
@@ -140,19 +140,17 @@ void SceneShadows::choose(const shared::FrameView& view, std::span<const shared:
                   {.maps = maps, .maps_of_a_sun = std::max(options_.splits, 1u)});
 }
 
-/// Return the projections of the chosen lights, by rank.
-std::vector<ShadowCaster> SceneShadows::makeCasters(const shared::FrameView& view,
-                                                    const shared::ShadowLights& chosen,
-                                                    std::span<const shared::Light> lights) const
+/// Set the projections of the chosen lights, by rank.
+void SceneShadows::makeCasters(const shared::FrameView& view, const shared::ShadowLights& chosen,
+                               std::span<const shared::Light> lights,
+                               std::vector<ShadowCaster>& casters) const
 {
-    std::vector<ShadowCaster> casters;
-    casters.reserve(shared::kMaxShadowProjections);
+    casters.clear();
     for (const shared::ShadowLights::Holder& holder : chosen.holders())
         addShadowCasters(lights[holder.slot], holder.slot, holder.row, bounds_, options_.spot_near, casters);
     for (ShadowCaster& caster : casters)
         caster.is_unseen = lights[caster.light].type == shared::kLightPoint &&
                            !shared::mayShowFace(view, caster.projection, caster.range);
-    return casters;
 }
 
 void SceneShadows::chooseLights(const shared::FrameView& view, SceneLights& lights, MirroredTable& table)
@@ -172,7 +170,9 @@ std::vector<ShadowCache::LayerUpdate> SceneShadows::findStale(const shared::Fram
     all.insert(all.end(), spheres.begin(), spheres.end());
     shared::ShadowLights chosen = chosen_;
     choose(view, lights, chosen);
-    ShadowPlan plan = planShadows(makeCasters(view, chosen, lights), options_, view, all);
+    std::vector<ShadowCaster> casters;
+    makeCasters(view, chosen, lights, casters);
+    ShadowPlan plan = planShadows(casters, options_, view, all);
     ShadowCache cache = cache_;
     cache.move(moves);
     const std::span<const ShadowCache::LayerUpdate> stale = cache.plan(plan, view);
@@ -185,7 +185,8 @@ std::span<const ShadowCache::LayerUpdate> SceneShadows::planFrame(const shared::
 {
     spheres_.resize(pack_sphere_count_);
     spheres_.insert(spheres_.end(), spheres.begin(), spheres.end());
-    plan_ = planShadows(makeCasters(view, chosen_, lights), options_, view, spheres_);
+    makeCasters(view, chosen_, lights, projections_);
+    plan_ = planShadows(projections_, options_, view, spheres_);
     const std::span<const ShadowCache::LayerUpdate> stale = cache_.plan(plan_, view);
     statistics_ = {.maps = plan_.map_count,
                    .unseen_maps = plan_.unseen_maps,

@@ -38,10 +38,11 @@ public:
 
     /// render_pass  of a ShadowPass of these depths
     /// pack         of the scene
+    /// max_lights   slots of lights
     /// errors: device_limit, device_failed.
     static Result<std::unique_ptr<SceneShadows>> create(const Device& device, VkRenderPass render_pass,
                                                         const formats::PackView& pack, const Box3& bounds,
-                                                        const ShadowOptions& options,
+                                                        uint32_t max_lights, const ShadowOptions& options,
                                                         const ShadowDepthChoice& depth);
 
     /// Pass the moves and the streamed groups of a frame, drawn or only prefetched, to the cache.
@@ -97,21 +98,24 @@ private:
         UniqueImageView view;
         UniqueFramebuffer framebuffer;
     };
-    SceneShadows(const Device& device, const formats::PackView& pack, const ShadowOptions& options,
-                 const ShadowDepthChoice& depth)
+    SceneShadows(const Device& device, const formats::PackView& pack, uint32_t max_lights,
+                 const ShadowOptions& options, const ShadowDepthChoice& depth)
         : options_(options),
           depth_(depth),
           filters_(depth.depth == ShadowDepth::d16 ? device.filters_d16 : device.filters_d32),
+          chosen_(max_lights),
           cache_(pack, options),
           arena_(device, 0)
     {
         options_.depth = depth.depth;
+        luminances_.reserve(max_lights);
+        projections_.reserve(shared::kMaxShadowProjections);
     }
     Status createImage();
     void choose(const shared::FrameView& view, std::span<const shared::Light> lights,
                 shared::ShadowLights& chosen) const;
-    std::vector<ShadowCaster> makeCasters(const shared::FrameView& view, const shared::ShadowLights& chosen,
-                                          std::span<const shared::Light> lights) const;
+    void makeCasters(const shared::FrameView& view, const shared::ShadowLights& chosen,
+                     std::span<const shared::Light> lights, std::vector<ShadowCaster>& casters) const;
     uint32_t layerCount() const { return options_.moving_layers ? 2 * options_.max_maps : options_.max_maps; }
     Status createLayer(const Device& device, VkRenderPass render_pass, Layer& layer, uint32_t number) const;
 
@@ -121,6 +125,7 @@ private:
     Box3 bounds_;                   ///< of the scene
     std::vector<float> luminances_; ///< of slots, without flicker; 0: off
     shared::ShadowLights chosen_;
+    std::vector<ShadowCaster> projections_; ///< of the chosen lights, in the last frame
     size_t pack_sphere_count_ = 0;
     std::vector<ShadowSphere> spheres_; ///< of the pack, then of the frame
     ShadowCache cache_;

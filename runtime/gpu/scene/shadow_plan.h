@@ -128,11 +128,11 @@ struct ShadowDepthChoice
 };
 
 /// Choose the format of the depths: as the options say, but 32 bits if a step of 16 bits is larger than
-/// kMaxDepthStepTexels in any map that a light may have. A step of a sun is 1 / 65535 of the scene's depth along its rays; one of a
-/// spot or point light is z^2 / (near * 65535) at a distance of z along the map's axis, up to the light's
-/// range or the end of the scene. Splits are taken as those of a lens of 60 degrees: those of narrower lenses
-/// and spheres of frames may have finer texels, and so may lights that frames add. There shadows begin later,
-/// but no surface shadows itself.
+/// kMaxDepthStepTexels in any map that a light of the pack may have. A step of a sun is 1 / 65535 of the
+/// scene's depth along its rays; one of a spot or point light is z^2 / (near * 65535) at a distance of z
+/// along the map's axis, up to the light's range or the end of the scene. Splits are taken as those of a lens
+/// of 60 degrees: those of narrower lenses, spheres of frames, and lights that frames add may have finer
+/// texels. There shadows begin later, but no surface shadows itself.
 ///
 /// scene    world bounds
 /// spheres  of the pack

@@ -173,6 +173,7 @@ TEST_F(CPoseTest, aPlayerLightsWhatFlickersAndMoves)
     ASSERT_EQ(lights.light_count, 2u);
     EXPECT_EQ(lights.changed[0].intensity, expected.lights()[0].record.intensity);
     EXPECT_LT(lights.changed[0].intensity, 10);
+    EXPECT_EQ(lights.changed[0].steady_intensity, 10);
     EXPECT_EQ(lights.lights[1].world_from_light[0][3], 5);
 
     hearth_player_info pose = HEARTH_PLAYER_INFO_INIT;

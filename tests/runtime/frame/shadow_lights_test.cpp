@@ -156,7 +156,7 @@ TEST(ShadowLights, areThoseOfASlowRankingWhileLightsComeGoMoveAndChangeTheirType
     for (const uint32_t maps : {64u, 23u, 5u, 0u})
     {
         Lights scene = makeRandomLights(120, random, 20);
-        ShadowLights chosen;
+        ShadowLights chosen(1024);
         SlowRanking slow;
         Float3 eye{};
         for (int frame = 0; frame < 150; ++frame)
@@ -176,7 +176,7 @@ TEST(ShadowLights, tellWhoseRowsChange)
     std::mt19937 random(12);
     Lights scene = makeRandomLights(60, random, 10);
     std::vector<uint32_t> rows(60, kNoShadow);
-    ShadowLights chosen;
+    ShadowLights chosen(1024);
     uint32_t stays = 0, moves = 0;
     for (int frame = 0; frame < 300; ++frame)
     {
@@ -205,7 +205,7 @@ TEST(ShadowLights, keepTheirMapsUntilTheyAreBeaten)
 {
     std::mt19937 random(13);
     const Lights scene = makeRandomLights(1024, random, 40);
-    ShadowLights chosen;
+    ShadowLights chosen(1024);
     std::vector<uint32_t> before;
     uint32_t changes = 0;
     for (int frame = 0; frame < 200; ++frame)
@@ -227,7 +227,7 @@ TEST(ShadowLights, haveMapsWhateverTheHistoryWhereAllHavePlace)
 {
     std::mt19937 random(14);
     Lights scene = makeRandomLights(9, random, 10);
-    ShadowLights chosen;
+    ShadowLights chosen(1024);
     for (int frame = 0; frame < 200; ++frame)
     {
         setRandomLight(scene, random() % 9, random, 10);
@@ -249,14 +249,14 @@ TEST(ShadowLights, ofEqualWeightAreThoseOfLowSlotsAndStay)
     Lights scene{std::vector<Light>(30), std::vector<float>(30, 1)};
     for (Light& light : scene.lights)
         light.type = kLightPoint;
-    ShadowLights chosen;
+    ShadowLights chosen(1024);
     const auto choose = [&]
     {
         chosen.choose(scene.lights, scene.luminances, {}, {.maps = 64, .maps_of_a_sun = 4});
         return getSlots(chosen);
     };
     EXPECT_EQ(choose(), (std::vector<uint32_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9})) << "sixty rows of 64";
-    EXPECT_EQ(chosen.droppedMaps(), 20u * 6);
+    EXPECT_EQ(chosen.droppedMaps(), 0u) << "more maps would need more rows";
     scene.luminances[29] = 1.24f;
     EXPECT_EQ(choose().back(), 9u) << "not beaten by 1.25";
     scene.luminances[29] = 1.26f;
@@ -264,6 +264,19 @@ TEST(ShadowLights, ofEqualWeightAreThoseOfLowSlotsAndStay)
     EXPECT_EQ(getSlots(chosen).back(), 8u) << "the last of equal weight has lost";
     scene.luminances[29] = 1;
     EXPECT_EQ(choose().back(), 29u) << "it stays among its equals";
+}
+
+TEST(ShadowLights, countTheMapsThatTheyLack)
+{
+    Lights scene{std::vector<Light>(30), std::vector<float>(30, 1)};
+    for (Light& light : scene.lights)
+        light.type = kLightPoint;
+    scene.lights[7].type = kLightDirectional;
+    ShadowLights chosen(1024);
+    chosen.choose(scene.lights, scene.luminances, {}, {.maps = 16, .maps_of_a_sun = 4});
+    EXPECT_EQ(getSlots(chosen), (std::vector<uint32_t>{7, 0, 1}));
+    EXPECT_EQ(chosen.lightsOn(), 30u);
+    EXPECT_EQ(chosen.droppedMaps(), 8u * 6) << "of the ten lamps that have rows beside a sun";
 }
 
 } // namespace hearth::test

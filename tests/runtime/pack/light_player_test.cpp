@@ -138,7 +138,11 @@ protected:
         const auto& records = test_.model().lights;
         std::map<uint32_t, LightRecord> now;
         for (const pack::PlayedLight& light : player_->lights())
+        {
             now[light.light] = light.record;
+            if (light.light != 2) // whose intensity a clip changes
+                EXPECT_EQ(light.steady_intensity, records[light.light].intensity);
+        }
         ASSERT_EQ(now.size(), 3u);
         EXPECT_EQ(now[1].intensity, flickered(1, records[1].intensity));
         EXPECT_EQ(now[1].world_from_light, records[1].world_from_light);
