@@ -100,7 +100,7 @@ Float4 flameColor(Float2 uv)
 {
     const float depth = flameDepth(uv);
     const float heat = clamp01(0.45f + 0.75f * depth + 0.15f * uv.y);
-    const Float3 c = glowColor(heat);
+    const Float3 c = exposeGlow(glowColor(heat) * 5);
     return {c.x, c.y, c.z, depth > 0 ? 1.0f : 0.0f};
 }
 
@@ -206,12 +206,8 @@ int addFlameMaterial(Document& document)
 {
     Material material;
     material.name = "flames";
-    const int image = add(document.images, paintColor("flame", 256, 512, flameColor));
-    material.base_color = {0, 0, 0, 1}; // it is emissive; base colour adds only the outline (alpha)
-    material.base_color_image = image;
-    material.emissive_image = image;
-    material.emissive = {1, 1, 1};
-    material.emissive_strength = 5;
+    material.base_color_image = add(document.images, paintColor("flame", 256, 512, flameColor));
+    material.unlit = true; // flames hold the fire's light, and shadow nothing
     material.alpha_cutoff = 0.5f;
     material.double_sided = true;
     return add(document.materials, material);

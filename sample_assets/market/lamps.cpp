@@ -12,11 +12,12 @@ namespace hearth::samples::market
 namespace
 {
 
-constexpr float kPaperNits = 2.2f, kBulbNits = 9, kNeonNits = 4; ///< emission; bulbs are a few pixels wide
+constexpr float kBulbNits = 9, kNeonNits = 4;      ///< emission; bulbs are a few pixels wide
+constexpr float kPaperGlow = 3.2f, kGlassGlow = 9; ///< of shells around a light, as a factor of white
 
 struct LampMaterials
 {
-    int iron, wax, bulb, cold_bulb, flame;
+    int iron, wax, bulb, cold_bulb, flame, glass;
 };
 
 /// Add a material that glows through and through: it reflects its own colour, too.
@@ -25,6 +26,14 @@ int addGlowingMaterial(Document& document, const std::string& name, Float3 color
     const int index = addEmissiveMaterial(document, name.c_str(), color, nits);
     document.materials[static_cast<size_t>(index)].base_color = {0.5f * color.x, 0.5f * color.y,
                                                                  0.5f * color.z, 1};
+    return index;
+}
+
+/// Add a material of paper or glass around a light, which it lets through: unlit surfaces cast no shadows.
+int addShellMaterial(Document& document, const std::string& name, Float3 glow)
+{
+    const int index = addPlainMaterial(document, name.c_str(), exposeGlow(glow));
+    document.materials[static_cast<size_t>(index)].unlit = true;
     return index;
 }
 
@@ -79,7 +88,7 @@ void addLampPostMeshes(Document& document, const LampMaterials& materials, const
     append(post, moved(makeTurned({{0.09f, -0.12f}, {0.07f, -0.15f}}, 6), kPostLamp));
     const TriangleMesh glass = moved(makeTurned({{0.12f, 0.115f}, {0.085f, -0.12f}}, 6), kPostLamp);
     const int mesh =
-        add(document.meshes, Mesh{"lamp_post", {{post, materials.iron}, {glass, materials.bulb}}});
+        add(document.meshes, Mesh{"lamp_post", {{post, materials.iron}, {glass, materials.glass}}});
     addCopies(document, "lamp_posts", mesh, plan.lamp_posts);
 }
 
@@ -184,7 +193,7 @@ std::array<int, kPaperCount> addLanternMeshes(Document& document)
     for (uint32_t paper = 0; paper < kPaperCount; ++paper)
     {
         const std::string name = "lantern_" + std::to_string(paper);
-        const int material = addGlowingMaterial(document, name, kPaperColors[paper], kPaperNits);
+        const int material = addShellMaterial(document, name, kPaperColors[paper] * kPaperGlow);
         meshes[paper] =
             add(document.meshes, Mesh{name, {{makePaper(), material}, {makeLanternFrame(), wood}}});
     }
@@ -199,7 +208,8 @@ LampModels addLamps(Document& document, const Plan& plan, const std::vector<Fixt
                                   addPlainMaterial(document, "wax", {0.62f, 0.52f, 0.36f}, 0.5f),
                                   addGlowingMaterial(document, "bulb", kBulbColor, kBulbNits),
                                   addEmissiveMaterial(document, "cold_bulb", {0.55f, 0.72f, 1.0f}, kBulbNits),
-                                  addEmissiveMaterial(document, "flame", {1.0f, 0.55f, 0.18f}, kBulbNits)};
+                                  addEmissiveMaterial(document, "flame", {1.0f, 0.55f, 0.18f}, kBulbNits),
+                                  addShellMaterial(document, "lamp_glass", kBulbColor * kGlassGlow)};
     addStallLampMeshes(document, materials, fixtures);
     const LampModels models{addLanternMeshes(document), materials.iron, materials.bulb};
     for (uint32_t paper = 0; paper < kPaperCount; ++paper)

@@ -58,6 +58,14 @@ inline float smoothstep(float from, float to, float x)
     return t * t * (3.0f - 2.0f * t);
 }
 
+/// Return the display colour of a glow, nearly 1 - exp(-glow): for unlit surfaces, which shadow no light that
+/// they hold.
+inline Float3 exposeGlow(Float3 glow)
+{
+    const auto expose = [](float x) { return 1 - 1 / (1 + x + 0.5f * x * x); };
+    return {expose(glow.x), expose(glow.y), expose(glow.z)};
+}
+
 /// Return the smaller of a and b, rounded over a range of `width` where they are close.
 inline float smoothMin(float a, float b, float width)
 {
