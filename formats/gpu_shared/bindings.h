@@ -126,17 +126,15 @@ HEARTH_CONSTANT uint kBricksLighting = 7;
 HEARTH_CONSTANT uint kFreshLightFaces = 0; ///< light of faces before the copy
 HEARTH_CONSTANT uint kFreshLightLocations = 1;
 
-/// Set of the passes that list lights: they have no other.
+/// Sets of the passes that list and count lights. Some read the scene as well, as their set 0: it leaves
+/// one storage buffer, which all that they write lies in.
 HEARTH_CONSTANT uint kSetLights = 0;
+HEARTH_CONSTANT uint kSetSceneLights = 1; ///< the same set beside the scene
+HEARTH_CONSTANT uint kSetPixels = 2;      ///< passes over the pixels of a frame
 
 HEARTH_CONSTANT uint kLightsBuffer = 0; ///< the buffer of kSceneLighting
-HEARTH_CONSTANT uint kLightsInView = 1; ///< CellLight of each ranged light of the frame
 
-/// Set of the pass that counts lights; its set 0 is the scene, which leaves one storage buffer.
-HEARTH_CONSTANT uint kSetLightStatistics = 1;
-
-HEARTH_CONSTANT uint kLightStatisticsVisibility = 0;
-HEARTH_CONSTANT uint kLightStatisticsBuffer = 1; ///< the buffer of kSceneLighting
+HEARTH_CONSTANT uint kPixelsVisibility = 0;
 
 /// Set of the pass that chooses gather points; its set 0 is the scene.
 HEARTH_CONSTANT uint kSetGatherPoint = 1;

@@ -161,6 +161,20 @@ HEARTH_FUNCTION float lightColumnEdge(HEARTH_IN(LightGrid) grid, HEARTH_IN(Light
     return u;
 }
 
+/// Return the depths of a tile: those of its pixels, with room for the roundings by which the pass that finds
+/// them may differ from the one that shades.
+/// least, greatest  of its pixels; least above greatest: it shows no surface
+HEARTH_FUNCTION LightSlab tileSlab(HEARTH_IN(LightGrid) grid, float least, float greatest)
+{
+    LightSlab slab;
+    HEARTH_PRECISE float begin = least * 0.9990234375f;
+    HEARTH_PRECISE float end = greatest * 1.0009765625f;
+    HEARTH_PRECISE float nearest = grid.z_near * 0.9990234375f;
+    slab.begin = max(begin, nearest);
+    slab.end = end;
+    return slab;
+}
+
 // ---- balls
 
 /// Both planes of equal u that touch a disc of a ball, and the depths at which they do.
@@ -489,6 +503,24 @@ HEARTH_FUNCTION float leastCorner(HEARTH_IN(LightGrid) grid, Float3 normal, floa
     return least;
 }
 
+/// Return the outward normal of the plane that touches a cone nearest to a point; 0 for a point on the axis.
+/// Taking the part along the axis away twice leaves none: far from a narrow cone's apex its rounding alone
+/// would turn the plane into the cone.
+HEARTH_FUNCTION Float3 coneNormal(HEARTH_IN(CellLight) light, Float3 point)
+{
+    HEARTH_PRECISE Float3 offset = point - light.apex;
+    float along = dot3(offset, light.axis);
+    HEARTH_PRECISE Float3 first = offset - light.axis * along;
+    float rest = dot3(first, light.axis);
+    HEARTH_PRECISE Float3 across = first - light.axis * rest;
+    float across2 = dot3(across, across);
+    if (across2 == 0.0f)
+        return Float3(0.0f, 0.0f, 0.0f);
+    HEARTH_PRECISE float share = light.cosine / sqrt(across2);
+    HEARTH_PRECISE Float3 normal = across * share - light.axis * light.sine;
+    return normal;
+}
+
 /// True if the plane that touches a cone nearest to the middle of a cell has the cell on its outer side.
 /// edges  of the cell: least and greatest u, least and greatest v
 HEARTH_FUNCTION bool isCellBesideCone(HEARTH_IN(LightGrid) grid, HEARTH_IN(CellLight) light,
@@ -500,14 +532,7 @@ HEARTH_FUNCTION bool isCellBesideCone(HEARTH_IN(LightGrid) grid, HEARTH_IN(CellL
     HEARTH_PRECISE float half_scale = 0.5f * lightPlaneScale(grid, depth);
     HEARTH_PRECISE Float3 middle =
         Float3((edges.x + edges.y) * half_scale, (edges.z + edges.w) * half_scale, depth);
-    HEARTH_PRECISE Float3 offset = middle - light.apex;
-    float along = dot3(offset, light.axis);
-    HEARTH_PRECISE Float3 across = offset - light.axis * along;
-    float across2 = dot3(across, across);
-    if (across2 == 0.0f)
-        return false;
-    HEARTH_PRECISE float share = light.cosine / sqrt(across2);
-    HEARTH_PRECISE Float3 normal = across * share - light.axis * light.sine;
+    Float3 normal = coneNormal(light, middle);
     HEARTH_PRECISE float least =
         min(leastCorner(grid, normal, begin, edges), leastCorner(grid, normal, end, edges)) -
         dot3(normal, light.apex);

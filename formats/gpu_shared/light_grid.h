@@ -98,13 +98,23 @@ HEARTH_CONSTANT uint kMaxLights = 4096;
 /// Largest number of cells of a grid: larger images get larger cells.
 HEARTH_CONSTANT uint kMaxLightCells = 32768;
 
+/// Largest number of tiles of an image. Their depths lie behind the words of their lists, in the room that
+/// the cells of a grid have.
+HEARTH_CONSTANT uint kMaxLightTiles = kMaxLightCells / 3;
+
+/// Return the first word of a tile's depths, its least and its greatest, from the first word of all lists.
+HEARTH_CONSTEXPR_FUNCTION uint tileDepthWord(uint tile)
+{
+    return kMaxLightTiles + 2u * tile;
+}
+
 /// Numbers of a frame's lists.
 struct LightListCounts
 {
     uint unranged;    ///< lights that every point gets
     uint ranged;      ///< lights with a range that reach into the view
     uint index_words; ///< words of indices that all lists need
-    uint overflows;   ///< cells with kAllLights
+    uint overflows;   ///< cells with kAllLights; tiles or slots where those have the lists, as the next two
     uint cells;       ///< cells that some light reaches
     uint indices;     ///< pairs of such a cell and a light
     // of all pixels that show a surface, counted by LightStatisticsPass
@@ -142,6 +152,10 @@ HEARTH_CONSTEXPR_FUNCTION uint lightCellOffset(uint word)
 {
     return word & ((1u << kLightOffsetBits) - 1u);
 }
+
+/// Word of a cell that no pixel has marked, where only marked cells get lists: all lights, so that a pixel
+/// whose depth rounds into such a cell loses none.
+HEARTH_CONSTANT uint kUnmarkedCell = kAllLights << kLightOffsetBits;
 
 /// Return the words of indices that a list of so many lights takes; none if it is too long for a cell.
 HEARTH_CONSTEXPR_FUNCTION uint lightListWords(uint count)

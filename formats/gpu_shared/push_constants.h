@@ -89,10 +89,11 @@ struct TilesPush
     uint draw_count; ///< the sky and the materials of the scene
 };
 
-/// Lights of cells.
-struct LightCellsPush
+/// Lists of lights.
+struct LightListsPush
 {
-    uint writes; ///< 0: counts the lights of each cell, 1: writes their indices
+    uint writes;      ///< 0: counts the lights of each list, 1: writes their indices
+    uint marked_only; ///< 1: cells have lists only where a pixel marks them
 };
 
 /// Visibility pass, overdraw view and shadow casters.

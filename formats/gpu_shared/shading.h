@@ -104,14 +104,15 @@ struct Lighting
     uint surroundings_row; ///< row of 16 bytes of the buffer: first instance, or kNoSurroundings
     uint transfers_row;    ///< row of the first radiance transfer
     uint first_list_word;  ///< word of the buffer at which the lists of the frame begin
-    uint first_cell_word;
+    uint first_cell_word;  ///< of the words of lists: of cells, tiles or slots
     uint first_index_word;
-    uint index_words; ///< room for indices
-    uint reserved0;
-    uint reserved1;
-    uint reserved2;
+    uint index_words;   ///< room for indices
+    uint list_count;    ///< lists of the frame; of slots, the room for their words
+    uint first_in_view; ///< row of 64 bytes: CellLight of the first ranged light of the frame
+    uint reserved;
     LightGrid grid;
     LightCascade cascades[kLightCascades];
+    LightCascade tiles; ///< of the image: one slab, each tile with depths of its own
 };
 
 /// Default lighting of every scene beside its own lights: a sky of three colours (radiance), and one sun
@@ -152,7 +153,7 @@ HEARTH_SHARED_END
 static_assert(sizeof(hearth::shared::Material) == 224);
 static_assert(sizeof(hearth::shared::MaterialLayers) == 176);
 static_assert(sizeof(hearth::shared::Light) == 96);
-static_assert(sizeof(hearth::shared::Lighting) == 80 + 112 + 64 * hearth::shared::kLightCascades);
+static_assert(sizeof(hearth::shared::Lighting) == 80 + 112 + 64 * (hearth::shared::kLightCascades + 1));
 #endif
 
 #endif

@@ -28,6 +28,8 @@ HEARTH_CONSTANT uint kConstantCount = 11;
 /// Lights that a pixel evaluates, beside those that every point gets.
 HEARTH_CONSTANT uint kLightListFrame = 0; ///< all of the frame
 HEARTH_CONSTANT uint kLightListCells = 1; ///< those of its cell of the light grid
+HEARTH_CONSTANT uint kLightListTiles = 2; ///< those of its tile of the image
+HEARTH_CONSTANT uint kLightListSlots = 3; ///< those of its slot of the visible list
 
 /// Source of the vertices of deformed meshes.
 HEARTH_CONSTANT uint kDeformedNone = 0; ///< no deformed meshes: rigid scenes and bins pay nothing for them

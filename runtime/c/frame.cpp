@@ -135,9 +135,12 @@ Status checkTargets(const hearth_scene& scene, const gpu::FrameTargets& targets,
     if (gathers && !options.gathers_light)
         return usage("the targets were created for a scene without bricks");
     const auto area = static_cast<gpu::ShadedArea>(frame.shaded_area);
-    if ((in_parts || gathers || gpu::shadesTiles(*scene.scene, area)) && !options.may_split)
-        return usage("the targets were created for a scene of few materials: frames in parts and with "
-                     "material tiles need HEARTH_TARGETS_SPLIT");
+    const auto method = static_cast<gpu::LightMethod>(frame.light_method);
+    const bool splits = in_parts || gathers || gpu::shadesTiles(*scene.scene, area) ||
+                        needPixels(gpu::lightMethodFacts(method).areas);
+    if (splits && !options.may_split)
+        return usage("the targets were created for a scene of few materials: frames in parts, with material "
+                     "tiles, or with tiled or clustered lights need HEARTH_TARGETS_SPLIT");
     return success();
 }
 

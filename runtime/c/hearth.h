@@ -411,7 +411,8 @@ enum
 enum
 {
     HEARTH_TARGETS_KEEP_VISIBILITY = 1, /* the visibility buffer can be copied after a frame */
-    /* frames may be recorded in parts, or with HEARTH_SHADE_TILES, also where the scene does not need it */
+    /* frames may be recorded in parts, with HEARTH_SHADE_TILES, or with a light method that splits them, also
+     * where the scene does not need it */
     HEARTH_TARGETS_SPLIT = 2,
     HEARTH_TARGETS_COUNT_MISSING = 4, /* hearth_record_missing may follow a frame: takes a second pyramid */
     HEARTH_TARGETS_BLOOM = 8 /* frames may have bloom or automatic exposure; with HEARTH_FEATURE_FINAL_PASS */
@@ -657,10 +658,14 @@ typedef struct hearth_light_change
 enum
 {
     HEARTH_LIGHTS_PRACTICAL = 0, /* those that reach its cell of a grid over the view */
-    HEARTH_LIGHTS_ALL = 1
+    HEARTH_LIGHTS_ALL = 1,
+    /* the next two split a frame behind its visibility buffer: targets with HEARTH_TARGETS_SPLIT */
+    HEARTH_LIGHTS_TILED_FORWARD = 2,     /* those that reach its tile, between the depths that it shows */
+    HEARTH_LIGHTS_CLUSTERED_FORWARD = 3, /* as PRACTICAL; only cells that a pixel shows have lists */
+    HEARTH_LIGHTS_FORWARD = 4            /* those that reach the box of its cluster */
 };
 
-/* Processor that lists the lights of cells (1.8). The lists are the same. */
+/* Processor that lists the lights of cells, of PRACTICAL and ALL (1.8). The lists are the same. */
 enum
 {
     HEARTH_LIGHT_LISTS_GPU = 0,

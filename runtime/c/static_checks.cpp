@@ -48,6 +48,9 @@ constexpr bool equal(int c, gpu::LightMethod method)
 }
 static_assert(equal(HEARTH_LIGHTS_PRACTICAL, gpu::LightMethod::practical));
 static_assert(equal(HEARTH_LIGHTS_ALL, gpu::LightMethod::all));
+static_assert(equal(HEARTH_LIGHTS_TILED_FORWARD, gpu::LightMethod::tiled_forward));
+static_assert(equal(HEARTH_LIGHTS_CLUSTERED_FORWARD, gpu::LightMethod::clustered_forward));
+static_assert(equal(HEARTH_LIGHTS_FORWARD, gpu::LightMethod::forward));
 
 constexpr bool equal(int c, gpu::LightLister lister)
 {

@@ -83,6 +83,25 @@ uint64_t layOut(const LightGridView& view, float pixels, LightGridLayout& layout
     return cells;
 }
 
+/// Lay out the tiles of an image: one slab, which has no depth.
+LightCascade layOutTiles(const LightGridView& view)
+{
+    LightCascade tiles{};
+    tiles.slabs = 1;
+    for (float pixels = kLightTilePixels; tiles.columns == 0 || tiles.columns * tiles.rows > kMaxLightTiles;
+         pixels *= 2)
+    {
+        tiles.cells_per_pixel = 1 / pixels;
+        tiles.columns = cellsAlong(view.width, pixels);
+        tiles.rows = cellsAlong(view.height, pixels);
+        tiles.column_step = pixels / view.pixels_per_u;
+        tiles.columns_per_u = 1 / tiles.column_step;
+        tiles.row_step = pixels / view.pixels_per_v;
+        tiles.rows_per_v = 1 / tiles.row_step;
+    }
+    return tiles;
+}
+
 } // namespace
 
 LightGridView lightGridView(const FrameView& view)
@@ -124,6 +143,7 @@ LightGridLayout makeLightGrid(const LightGridView& view)
     grid.slack_size = view.is_orthographic ? pixel_slack : 0;
     for (float pixels = kLightCellPixels; layOut(view, pixels, layout) > kMaxLightCells;)
         pixels *= 1.125f;
+    layout.tiles = layOutTiles(view);
     return layout;
 }
 

@@ -14,6 +14,9 @@ namespace hearth::shared
 inline constexpr float kLightCellPixels = 64;
 inline constexpr float kMinLightCellSize = 0.5f;
 
+/// Side of a tile in pixels; larger images have tiles twice as wide, or four times.
+inline constexpr float kLightTilePixels = 32;
+
 /// View that a grid divides.
 struct LightGridView
 {
@@ -36,6 +39,7 @@ struct LightGridLayout
 {
     LightGrid grid;
     std::array<LightCascade, kLightCascades> cascades;
+    LightCascade tiles; ///< of the image, each with depths of its own: shared::tileSlab
 };
 
 LightGridLayout makeLightGrid(const LightGridView& view);

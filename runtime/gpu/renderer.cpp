@@ -57,9 +57,17 @@ uint32_t firstPhase(const FrameInput& input)
     return occlusionCulling(input) == OcclusionCulling::off ? shared::kPhaseWhole : shared::kPhaseEarly;
 }
 
+/// Areas for which the device lists the lights of a frame; none: the CPU lists them at once.
+std::optional<LightAreas> listedAreas(const Scene& scene, const ShadingSettings& shading)
+{
+    const LightAreas areas = lightMethodFacts(shading.light_method).areas;
+    return scene.lights->listsOnDevice(shading.light_lister, areas) ? std::optional(areas) : std::nullopt;
+}
+
 FrameConfiguration configure(const Scene& scene, const FrameTargets& targets, const FrameInput& input,
                              bool in_parts)
 {
+    const std::optional<LightAreas> areas = listedAreas(scene, input.shading);
     return {.occlusion = occlusionCulling(input),
             .material_tiles = shadesTiles(scene, input.shading.area),
             .gathers_light = usesGi(scene, input.shading),
@@ -69,7 +77,10 @@ FrameConfiguration configure(const Scene& scene, const FrameTargets& targets, co
             .has_shadows = scene.shadows != nullptr,
             .shadow_format = scene.shadows == nullptr ? FrameConfiguration{}.shadow_format
                                                       : shadowFormat(scene.shadows->depth().depth),
-            .lists_lights = scene.lights->listsOnDevice(input.shading.light_lister),
+            .lists_lights = areas.has_value(),
+            .lists_slots = areas == LightAreas::slots,
+            // by the method alone: the frame may be the one that adds the first light
+            .lists_visible = needPixels(lightMethodFacts(input.shading.light_method).areas),
             .lights_bricks = scene.bricks != nullptr,
             .has_final_pass = alwaysHasFinalPass(targets.options(), targets.extent()) ||
                               usesBloom(input.shading) || adaptsExposure(input.shading),
@@ -265,6 +276,7 @@ Status Renderer::createShadows(const formats::PackView& pack, const ShadowOption
 
 Status Renderer::prepareLightMethod(Scene& scene, LightMethod method)
 {
+    HEARTH_TRY(light_lists_.prepare(device_, layouts_, scene, lightMethodFacts(method).areas));
     for (SceneMaterial& material : scene.materials)
     {
         material.variant.light_list = lightMethodFacts(method).light_list;
@@ -322,7 +334,7 @@ void Renderer::recordCulled(VkCommandBuffer commands, const Scene& scene, FrameT
     passes.begin(FrameStep::update);
     WordCopies copies = recordFrameUpdate(device_, commands, scene, targets, copy_words_, view,
                                           {input.moves, input.poses, input.lights});
-    recordLightLists(commands, scene, view, input.shading.light_lister, passes);
+    recordLightLists(commands, scene, view, input.shading, passes);
     if (scene.bricks != nullptr)
         recordBrickLight(commands, scene, copies, input, passes);
     if (scene.shadows != nullptr)
@@ -334,6 +346,8 @@ void Renderer::recordCulled(VkCommandBuffer commands, const Scene& scene, FrameT
     recordSkinning(commands, scene, firstPhase(input));
     if (scene.stream != nullptr)
         page_requests_.record(device_, commands, scene);
+    if (!hasTwoPhases(input))
+        recordSlotLights(commands, scene, input.shading, passes);
     passes.end();
     writeTimestamp(device_, commands, input.timestamps, kTimestampCull);
 }
@@ -393,15 +407,39 @@ const ShadowPass& Renderer::shadowPass(const Scene& scene) const
 
 /// List the lights of the frame and of its cells, on the device or right away.
 void Renderer::recordLightLists(VkCommandBuffer commands, const Scene& scene, const shared::FrameView& view,
-                                LightLister lister, PassRecorder& passes) const
+                                const ShadingSettings& shading, PassRecorder& passes) const
 {
-    SceneLights& lights = *scene.lights;
-    lights.beginFrame(scene.tables->lighting, scene.tables->frame, view, lister);
-    if (!lights.listsOnDevice(lister))
+    scene.lights->beginFrame(scene.tables->lighting, scene.tables->frame, view, shading.light_lister,
+                             lightMethodFacts(shading.light_method).areas);
+    const std::optional<LightAreas> areas = listedAreas(scene, shading);
+    if (!areas)
         return;
     const DebugLabel label(device_, commands, "list lights");
     passes.begin(FrameStep::light_lists);
-    light_lists_.record(device_, commands, scene);
+    light_lists_.record(device_, commands, scene, *areas);
+}
+
+/// List the lights of the slots of the visible list, behind the last culling phase of the frame.
+void Renderer::recordSlotLights(VkCommandBuffer commands, const Scene& scene, const ShadingSettings& shading,
+                                PassRecorder& passes) const
+{
+    if (listedAreas(scene, shading) != LightAreas::slots)
+        return;
+    const DebugLabel label(device_, commands, "slot lights");
+    passes.begin(FrameStep::slot_lights);
+    light_lists_.recordSlots(device_, commands, scene);
+}
+
+/// List the lights of tiles or cells by what pixels show, behind the visibility buffer.
+void Renderer::recordVisibleLights(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
+                                   const ShadingSettings& shading, PassRecorder& passes) const
+{
+    const std::optional<LightAreas> areas = listedAreas(scene, shading);
+    if (!areas || !needPixels(*areas))
+        return;
+    const DebugLabel label(device_, commands, "visible lights");
+    passes.begin(FrameStep::visible_lights);
+    light_lists_.recordVisible(device_, commands, scene, targets, *areas);
 }
 
 /// Draw the shadow maps that are stale: find the casters of as many as there are views, then draw these.
@@ -503,6 +541,7 @@ void Renderer::recordEarly(VkCommandBuffer commands, const Scene& scene, FrameTa
         cull_.record(device_, commands, scene, scene.frame().main, targets.occlusionSet(),
                      shared::kPhaseLate);
         recordSkinning(commands, scene, shared::kPhaseLate);
+        recordSlotLights(commands, scene, input.shading, passes);
         passes.end();
     }
     writeTimestamp(device_, commands, input.timestamps, kTimestampLateCull);
@@ -561,6 +600,7 @@ void Renderer::recordShaded(VkCommandBuffer commands, const Scene& scene, FrameT
                             const FrameInput& input, PassRecorder& passes) const
 {
     const bool is_open = passes.sharesPass(FrameStep::visibility, FrameStep::shading);
+    recordVisibleLights(commands, scene, targets, input.shading, passes);
     if (passes.has(FrameStep::material_tiles))
     {
         const DebugLabel label(device_, commands, "material tiles");

@@ -41,7 +41,7 @@ enum FrameTimestamp : uint32_t
     kTimestampPyramid,
     kTimestampLateCull,
     kTimestampVisibility,
-    kTimestampMaterialTiles, ///< includes gathering (GI); no time without both
+    kTimestampMaterialTiles, ///< includes gathering (GI) and lights listed for pixels; no time without these
     kTimestampShading,       ///< includes bloom and the final pass
     kTimestampCount,
 };
@@ -177,7 +177,11 @@ private:
                          VkCommandBuffer commands, Scene& scene);
     void recordSkinning(VkCommandBuffer commands, const Scene& scene, uint32_t phase) const;
     void recordLightLists(VkCommandBuffer commands, const Scene& scene, const shared::FrameView& view,
-                          LightLister lister, PassRecorder& passes) const;
+                          const ShadingSettings& shading, PassRecorder& passes) const;
+    void recordSlotLights(VkCommandBuffer commands, const Scene& scene, const ShadingSettings& shading,
+                          PassRecorder& passes) const;
+    void recordVisibleLights(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
+                             const ShadingSettings& shading, PassRecorder& passes) const;
     const ShadowPass& shadowPass(const Scene& scene) const;
     void recordShadows(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
                        const shared::FrameView& view, std::span<const ShadowSphere> spheres,

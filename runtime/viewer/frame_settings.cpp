@@ -130,7 +130,8 @@ gpu::TargetOptions targetOptions(const FrameSettings& settings, const gpu::Scene
                                                            : gpu::OcclusionCulling::two_phase,
             .keeps_visibility = keeps_visibility,
             .gathers_light = gathers,
-            .may_split = gathers || gpu::shadesTiles(scene, settings.shaded_area),
+            .may_split = gathers || gpu::shadesTiles(scene, settings.shaded_area) ||
+                         needPixels(gpu::lightMethodFacts(settings.light_method).areas),
             .counts_missing = settings.occludes_by_last_frame,
             .may_bloom = mayBloom(settings),
             .output = output,

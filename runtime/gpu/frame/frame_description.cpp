@@ -46,11 +46,11 @@ constexpr ResourceFacts kResources[] = {
 static_assert(std::size(kResources) == static_cast<size_t>(FrameResource::count));
 
 constexpr const char* kSteps[] = {
-    "update",        "list lights",       "light bricks", "shadow cull",  "shadow map",
-    "shadow copy",   "moving shadow map", "cull",         "last pyramid", "early visibility",
-    "early pyramid", "late cull",         "visibility",   "pyramid",      "material tiles",
-    "gather light",  "shading",           "exposure",     "bloom down",   "bloom up",
-    "final",
+    "update",         "list lights",       "light bricks", "shadow cull",  "shadow map",
+    "shadow copy",    "moving shadow map", "cull",         "last pyramid", "early visibility",
+    "early pyramid",  "late cull",         "slot lights",  "visibility",   "pyramid",
+    "visible lights", "material tiles",    "gather light", "shading",      "exposure",
+    "bloom down",     "bloom up",          "final",
 };
 static_assert(std::size(kSteps) == static_cast<size_t>(FrameStep::count));
 

@@ -33,7 +33,7 @@ enum class FrameResource : uint8_t
     visible_list,   ///< clusters to draw, their draws, counters and skinned vertices
     caster_lists,   ///< the same of shadow maps
     brick_light,    ///< light of the faces of bricks
-    light_lists,    ///< lights of the frame and of the cells of its light grid
+    light_lists,    ///< lights of the frame, and of its cells, tiles or slots
     radiance,       ///< linear colours of the frame, before a final pass; attachment
     bloom_level_1,  ///< attachment of half the frame's side; each of the next four is half the one before
     bloom_level_2,
@@ -107,8 +107,10 @@ enum class FrameStep : uint8_t
     early_visibility,
     early_pyramid, ///< of the early phase
     late_cull,
+    slot_lights, ///< find the lights of each slot of the visible list
     visibility,
-    pyramid, ///< for the next frame
+    pyramid,        ///< for the next frame
+    visible_lights, ///< find the lights of tiles or cells, by what pixels show
     material_tiles,
     gather,
     shading,
@@ -331,7 +333,9 @@ struct FrameConfiguration
     bool shows_overdraw = false;
     bool has_shadows = false;
     VkFormat shadow_format = VK_FORMAT_D32_SFLOAT; ///< of shadow maps, or VK_FORMAT_D16_UNORM
-    bool lists_lights = false; ///< the device lists the lights of cells; otherwise the CPU has done so
+    bool lists_lights = false;                     ///< the device lists lights; otherwise the CPU has done so
+    bool lists_slots = false;                      ///< in slot_lights, those of slots
+    bool lists_visible = false; ///< in visible_lights, those of tiles or cells by what pixels show
     bool lights_bricks = false;
     std::vector<MapContent> maps{}; ///< shadow maps that the frame draws, in order; the others are cached
     uint32_t maps_at_once = 8;      ///< maps whose casters are found before any of them is drawn

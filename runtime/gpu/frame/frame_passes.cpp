@@ -221,7 +221,8 @@ Result<FramePasses> FramePasses::create(const Device& device, FrameWay way, Mate
     std::vector<FrameConfiguration> configurations;
     for (FrameConfiguration configuration : allConfigurations(way, materials, passes.hasFinalPasses()))
     {
-        configuration.lists_lights = configuration.lights_bricks = true;
+        addLightLists(configuration);
+        configuration.lights_bricks = true;
         configuration.radiance_format = passes.radianceFormat();
         configurations.push_back(configuration);
         addMapsOfAllKinds(configuration);

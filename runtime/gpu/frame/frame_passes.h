@@ -51,8 +51,8 @@ struct DrawPlace
     uint32_t subpass;
 };
 
-/// Plans of all configurations, made before any frame is recorded. They have the light of bricks, and for
-/// scenes with shadows maps of all kinds: a frame records what it needs of them.
+/// Plans of all configurations, made before any frame is recorded. They have the light of bricks, lists of
+/// lights, and for scenes with shadows maps of all kinds: a frame records what it needs of them.
 class FramePasses
 {
 public:
@@ -65,7 +65,8 @@ public:
     MaterialTest materials() const { return materials_; }
     bool hasFinalPasses() const { return radiance_format_.has_value(); }
     VkFormat radianceFormat() const { return radiance_format_.value_or(kPackedRadiance); }
-    /// Plan of a configuration; its way, its test of materials, its bricks and its maps do not matter.
+    /// Plan of a configuration; its way, its test of materials, its bricks and its maps do not matter, nor do
+    /// lists of lights ahead of the visibility buffer.
     const FramePlan& plan(const FrameConfiguration& configuration) const;
     /// Families of the passes of the frame's size.
     std::span<const PassFamily> families() const { return families_; }

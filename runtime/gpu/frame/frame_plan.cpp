@@ -169,7 +169,8 @@ bool splitsAtVisibility(const FrameConfiguration& c)
     // the pyramid needs the scene's depth, which the numbers of materials overwrite
     const bool loses_depth =
         c.occlusion == OcclusionCulling::last_frame && c.materials == MaterialTest::depth;
-    return !hasSubpasses(c.way) || c.material_tiles || c.gathers_light || c.in_parts || loses_depth;
+    return !hasSubpasses(c.way) || c.material_tiles || c.gathers_light || c.lists_visible || c.in_parts ||
+           loses_depth;
 }
 
 /// True if the depth of a frame becomes a pyramid in the next one, behind its culling. Made in its own frame,
@@ -177,6 +178,19 @@ bool splitsAtVisibility(const FrameConfiguration& c)
 bool defersPyramid(const FrameConfiguration& c)
 {
     return c.occlusion == OcclusionCulling::last_frame && !splitsAtVisibility(c);
+}
+
+/// Add the lights of slots behind the culling that ends the visible list.
+void addSlotLights(const FrameConfiguration& c, std::vector<Step>& steps)
+{
+    if (c.lists_slots)
+        steps.push_back({.step = FrameStep::slot_lights,
+                         .kind = PassKind::compute,
+                         .uses = {{Resource::scene_tables, Access::compute_read},
+                                  {Resource::pages, Access::compute_read},
+                                  {Resource::work_lists, Access::compute_read},
+                                  {Resource::visible_list, Access::compute_read},
+                                  {Resource::light_lists, Access::compute_write}}});
 }
 
 std::vector<Step> listSteps(const FrameConfiguration& c)
@@ -203,6 +217,8 @@ std::vector<Step> listSteps(const FrameConfiguration& c)
     steps.push_back(cullStep(FrameStep::cull, Resource::visible_list));
     if (c.occlusion != OcclusionCulling::off)
         steps.back().uses.push_back(kPyramidTexels);
+    if (!two_phases)
+        addSlotLights(c, steps);
     if (defersPyramid(c))
         steps.push_back(pyramidStep(FrameStep::last_pyramid));
     if (two_phases)
@@ -211,10 +227,18 @@ std::vector<Step> listSteps(const FrameConfiguration& c)
         steps.push_back(pyramidStep(FrameStep::early_pyramid));
         steps.push_back(cullStep(FrameStep::late_cull, Resource::visible_list));
         steps.back().uses.push_back(kPyramidTexels);
+        addSlotLights(c, steps);
     }
     steps.push_back(visibilityStep(FrameStep::visibility, two_phases ? Content::keep : Content::begin));
     if (c.occlusion == OcclusionCulling::last_frame && !defersPyramid(c))
         steps.push_back(pyramidStep(FrameStep::pyramid));
+    if (c.lists_visible)
+        steps.push_back({.step = FrameStep::visible_lights,
+                         .kind = PassKind::compute,
+                         .uses = {{Resource::visible_list, Access::compute_read},
+                                  {Resource::pages, Access::compute_read},
+                                  {Resource::visibility, Access::sampled},
+                                  {Resource::light_lists, Access::compute_write}}});
     if (c.material_tiles)
         steps.push_back({.step = FrameStep::material_tiles,
                          .kind = PassKind::compute,
@@ -457,7 +481,7 @@ Touches touchesOfEarlierFrames(FrameWay way, MaterialTest materials)
                    .blooms = true});
     for (FrameConfiguration c : all)
     {
-        c.lists_lights = true;
+        addLightLists(c);
         c.lights_bricks = true;
         addMapsOfAllKinds(c);
         for (const Step& step : listSteps(c))
@@ -621,6 +645,12 @@ void addMapsOfAllKinds(FrameConfiguration& configuration)
     configuration.maps_at_once = 2;
 }
 
+void addLightLists(FrameConfiguration& configuration)
+{
+    configuration.lists_lights = configuration.lists_slots = true;
+    configuration.lists_visible = configuration.in_parts;
+}
+
 std::vector<FrameConfiguration> allConfigurations(FrameWay way, MaterialTest materials, bool has_final_passes)
 {
     std::vector<FrameConfiguration> all;
@@ -653,7 +683,7 @@ uint32_t configurationIndex(const FrameConfiguration& c)
     const auto bit = [](bool set, uint32_t number) { return (set ? 1u : 0u) << number; };
     const uint32_t finals = c.has_final_pass ? 1 + bit(c.adapts_exposure, 0) + bit(c.blooms, 1) : 0;
     return kConfigurationCount * finals + 32 * static_cast<uint32_t>(c.occlusion) + bit(c.material_tiles, 0) +
-           bit(c.gathers_light, 1) + bit(c.in_parts, 2) + bit(c.keeps_visibility, 3) +
+           bit(c.gathers_light, 1) + bit(c.in_parts || c.lists_visible, 2) + bit(c.keeps_visibility, 3) +
            bit(c.shows_overdraw, 4);
 }
 

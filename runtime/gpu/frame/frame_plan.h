@@ -24,7 +24,8 @@ inline constexpr uint32_t kFinalPassCount = 5;
 /// has_final_passes  with final passes as well: kFinalPassCount times as many
 std::vector<FrameConfiguration> allConfigurations(FrameWay way, MaterialTest materials,
                                                   bool has_final_passes = false);
-/// Position in the list of all configurations, whatever the scene has.
+/// Position in the list of all configurations, whatever the scene has: frames that list lights for visible
+/// pixels have the position of frames in parts.
 uint32_t configurationIndex(const FrameConfiguration& configuration);
 
 /// Uses of an image by the caller that a frame waits for.
@@ -37,5 +38,9 @@ const Pass* findPass(const FrameDescription& frame, FrameStep step);
 
 /// Add shadow maps of all kinds, in more than one round of culling: passes of further ones are the same.
 void addMapsOfAllKinds(FrameConfiguration& configuration);
+
+/// Add each step that lists lights and that a frame with these passes may have. Lists of what pixels show
+/// need the passes of a frame in parts.
+void addLightLists(FrameConfiguration& configuration);
 
 } // namespace hearth::gpu

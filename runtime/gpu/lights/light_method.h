@@ -14,22 +14,48 @@ enum class LightMethod : uint8_t
 {
     practical, ///< the default
     all,
+    tiled_forward,
+    clustered_forward,
+    forward,
     count,
 };
 inline constexpr size_t kLightMethodCount = static_cast<size_t>(LightMethod::count);
+
+/// Areas of a frame that have lists of lights.
+enum class LightAreas : uint8_t
+{
+    cells, ///< of the light grid, before anything is drawn: on the device or the CPU
+    // the next ones on the device alone
+    visible_cells, ///< those with a visible pixel, behind the visibility buffer
+    tiles,         ///< of the image, between the depths of their pixels: behind the visibility buffer
+    slots,         ///< of the visible list, behind culling
+};
+
+/// True if areas have lists by what pixels show, which splits a frame behind the visibility buffer.
+constexpr bool needPixels(LightAreas areas)
+{
+    return areas == LightAreas::visible_cells || areas == LightAreas::tiles;
+}
 
 struct LightMethodFacts
 {
     const char* name; ///< of --lights
     const char* summary;
     uint32_t light_list; ///< shared::kLightList*: lights that a pixel evaluates
+    LightAreas areas;    ///< with lists
 };
 
 /// Facts by LightMethod. Methods that add lights in one order draw the same bytes.
 inline constexpr LightMethodFacts kLightMethods[] = {
     {"practical", "each pixel evaluates the lights of its cell of a grid over the view",
-     shared::kLightListCells},
-    {"all", "each pixel evaluates all lights of the frame", shared::kLightListFrame},
+     shared::kLightListCells, LightAreas::cells},
+    {"all", "each pixel evaluates all lights of the frame", shared::kLightListFrame, LightAreas::cells},
+    {"tiled-forward", "each pixel evaluates the lights of its tile, between the depths that the tile shows",
+     shared::kLightListTiles, LightAreas::tiles},
+    {"clustered-forward", "as practical, and only cells that a pixel shows have lists",
+     shared::kLightListCells, LightAreas::visible_cells},
+    {"forward", "each pixel evaluates the lights that reach the box of its cluster", shared::kLightListSlots,
+     LightAreas::slots},
 };
 static_assert(std::size(kLightMethods) == kLightMethodCount);
 

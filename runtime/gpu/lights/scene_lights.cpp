@@ -24,6 +24,20 @@ uint32_t indexWords(uint32_t capacity)
     return std::min(capacity * 256u, 128u * 1024u) / 2;
 }
 
+/// Return the number of a frame's lists; of slots, the room for their words.
+uint32_t countLists(const shared::LightGridLayout& grid, LightAreas areas)
+{
+    switch (areas)
+    {
+    case LightAreas::tiles:
+        return grid.tiles.columns * grid.tiles.rows;
+    case LightAreas::slots:
+        return shared::kMaxLightCells;
+    default:
+        return grid.grid.cell_count;
+    }
+}
+
 } // namespace
 
 LightBufferLayout LightBufferLayout::make(uint32_t capacity, uint64_t surroundings_rows)
@@ -33,7 +47,9 @@ LightBufferLayout LightBufferLayout::make(uint32_t capacity, uint64_t surroundin
     layout.lists = layout.surroundings + surroundings_rows * kRowBytes;
     layout.cells = layout.lists + sizeof(shared::LightListCounts) + VkDeviceSize{capacity} * sizeof(uint32_t);
     layout.indices = layout.cells + VkDeviceSize{shared::kMaxLightCells} * sizeof(uint32_t);
-    layout.end = layout.indices + VkDeviceSize{layout.index_words} * sizeof(uint32_t);
+    layout.in_view = layout.indices + VkDeviceSize{layout.index_words} * sizeof(uint32_t);
+    layout.in_view = (layout.in_view + sizeof(shared::CellLight) - 1) & ~(sizeof(shared::CellLight) - 1);
+    layout.end = layout.in_view + VkDeviceSize{capacity} * sizeof(shared::CellLight);
     return layout;
 }
 
@@ -51,6 +67,7 @@ SceneLights::SceneLights(const LightBufferLayout& layout, shared::SceneLighting 
     head_.first_cell_word = word(layout_.cells);
     head_.first_index_word = word(layout_.indices);
     head_.index_words = layout_.index_words;
+    head_.first_in_view = static_cast<uint32_t>(layout_.in_view / sizeof(shared::CellLight));
 }
 
 void SceneLights::fill(MirroredTable& table, std::span<const std::byte> surroundings, uint64_t transfer_rows,
@@ -97,15 +114,17 @@ bool SceneLights::hasRangedLights() const
 }
 
 void SceneLights::beginFrame(const MirroredTable& table, uint32_t copy, const shared::FrameView& view,
-                             LightLister lister)
+                             LightLister lister, LightAreas areas)
 {
     const shared::LightGridLayout grid = shared::makeLightGrid(shared::lightGridView(view));
     head_.light_count = static_cast<uint32_t>(lighting_.lights.size());
     head_.grid = grid.grid;
     std::copy(grid.cascades.begin(), grid.cascades.end(), head_.cascades);
+    head_.tiles = grid.tiles;
+    head_.list_count = countLists(grid, areas);
     const Buffer& buffer = table.copy(copy);
     std::memcpy(buffer.mapped, &head_, sizeof(head_));
-    if (!listsOnDevice(lister))
+    if (!listsOnDevice(lister, areas))
         lists_.assign(grid, lighting_.lights, listView(buffer));
 }
 

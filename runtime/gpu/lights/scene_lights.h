@@ -5,6 +5,7 @@
 
 #include "formats/scene/scene_lighting.h"
 #include "runtime/frame/light_lists.h"
+#include "runtime/gpu/lights/light_method.h"
 #include "runtime/gpu/vulkan/mirrored_table.h"
 
 #include <span>
@@ -13,7 +14,7 @@
 namespace hearth::gpu
 {
 
-/// Processor that lists the lights of cells. The lists are the same, word for word.
+/// Processor that lists the lights of cells (LightAreas::cells). The lists are the same, word for word.
 enum class LightLister : uint8_t
 {
     gpu,
@@ -27,8 +28,9 @@ struct LightBufferLayout
     uint32_t index_words = 0; ///< room for indices
     VkDeviceSize surroundings = 0;
     VkDeviceSize lists = 0; ///< the parts before it are the table, those after it are the frame's
-    VkDeviceSize cells = 0;
+    VkDeviceSize cells = 0; ///< words of all lists, whatever has them
     VkDeviceSize indices = 0;
+    VkDeviceSize in_view = 0; ///< shared::CellLight of the ranged lights of the frame; passes of the device
     VkDeviceSize end = 0;
 
     /// surroundings_rows  of 16 bytes
@@ -65,14 +67,19 @@ public:
 
     /// True if a frame lists its lights on the device: without ranged lights the lists are those of the frame
     /// alone, which the CPU has at once.
-    bool listsOnDevice(LightLister lister) const { return lister == LightLister::gpu && hasRangedLights(); }
+    bool listsOnDevice(LightLister lister, LightAreas areas) const
+    {
+        return (lister == LightLister::gpu || areas != LightAreas::cells) && hasRangedLights();
+    }
 
     /// Write the grid of the frame's view to the copy of a frame, and the lists unless listsOnDevice.
     void beginFrame(const MirroredTable& table, uint32_t copy, const shared::FrameView& view,
-                    LightLister lister);
+                    LightLister lister, LightAreas areas);
 
-    /// Cells of the last frame's grid.
+    /// Grid of the last frame, tiles of its image, and the number of its lists.
     const shared::LightGrid& grid() const { return head_.grid; }
+    const shared::LightCascade& tiles() const { return head_.tiles; }
+    uint32_t listCount() const { return head_.list_count; }
 
 private:
     shared::LightListView listView(const Buffer& buffer) const;

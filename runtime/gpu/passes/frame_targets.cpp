@@ -71,7 +71,7 @@ Result<FrameTargets> FrameTargets::create(const Device& device, const FramePasse
 
 bool FrameTargets::allows(const FrameConfiguration& c) const
 {
-    const bool splits = c.material_tiles || c.gathers_light || c.in_parts;
+    const bool splits = c.material_tiles || c.gathers_light || c.lists_visible || c.in_parts;
     if (c.has_final_pass ? !options_.has_final_pass : alwaysHasFinalPass(options_, extent_))
         return false;
     if ((c.blooms || c.adapts_exposure) && !options_.may_bloom)
@@ -259,9 +259,9 @@ Status FrameTargets::createSets(const Device& device, const DrawLayouts& layouts
     const uint32_t occlusion_sets = kMaxFramesInFlight * pyramidCount();
     const DescriptorPoolSizes sizes{.uniforms = occlusion_sets,
                                     .storages = 3 + occlusion_sets,
-                                    .textures = 3 + occlusion_sets,
+                                    .textures = 4 + occlusion_sets,
                                     .inputs = 1};
-    HEARTH_ASSIGN_OR_RETURN(pool_, createDescriptorPool(device, 2 + occlusion_sets, sizes));
+    HEARTH_ASSIGN_OR_RETURN(pool_, createDescriptorPool(device, 3 + occlusion_sets, sizes));
     HEARTH_ASSIGN_OR_RETURN(set_, allocateSet(device, pool_.get(), layouts.attachments.get()));
     DescriptorWriter attachments(set_);
     if (hasSubpasses(way))
@@ -293,6 +293,13 @@ Status FrameTargets::createSets(const Device& device, const DrawLayouts& layouts
                          texel_sampler_.get())
                 .write(device);
         }
+    if (options_.may_split || options_.keeps_visibility)
+    {
+        HEARTH_ASSIGN_OR_RETURN(pixel_set_, allocateSet(device, pool_.get(), layouts.pixels.get()));
+        DescriptorWriter(pixel_set_)
+            .texture(shared::kPixelsVisibility, visibility_.view.get(), texel_sampler_.get())
+            .write(device);
+    }
     if (!options_.may_split)
         return success();
     HEARTH_ASSIGN_OR_RETURN(tile_set_, allocateSet(device, pool_.get(), layouts.tiles.get()));

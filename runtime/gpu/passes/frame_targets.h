@@ -25,7 +25,8 @@ struct TargetOptions
     OcclusionCulling occlusion = OcclusionCulling::two_phase;
     bool keeps_visibility = false; ///< the visibility buffer can be copied after a frame
     bool gathers_light = true;     ///< frames of scenes with bricks gather indirect light
-    /// Frames may be split between visibility and shading: material tiles, gathered light, parts.
+    /// Frames may be split between visibility and shading: material tiles, gathered light, lights listed for
+    /// visible pixels, parts.
     bool may_split = true;
     bool counts_missing = false; ///< Renderer::recordMissing may follow a frame: takes a second pyramid
     /// Frames may have a final pass, by a renderer that has them (RendererOptions::post). With an output
@@ -99,6 +100,8 @@ public:
     /// Tile lists of the materials, as shared::TileDraw describes.
     const Buffer& tileLists() const { return tile_lists_; }
     VkDescriptorSet tileSet() const { return tile_set_; }
+    /// Set of the passes over visible pixels; with TargetOptions::keeps_visibility or may_split.
+    VkDescriptorSet pixelSet() const { return pixel_set_; }
 
     /// Gathered light (GI); with TargetOptions::gathers_light.
     GatherTargets& gather() { return *gather_; }
@@ -171,6 +174,7 @@ private:
     OcclusionViews occlusion_[kMaxFramesInFlight];
     uint32_t current_ = 0;
     VkDescriptorSet tile_set_ = VK_NULL_HANDLE;
+    VkDescriptorSet pixel_set_ = VK_NULL_HANDLE;
     shared::OcclusionView pyramid_view_{};
     shared::OcclusionView depth_view_{};
     std::optional<GatherTargets> gather_; ///< with TargetOptions::gathers_light

@@ -92,9 +92,11 @@ Status DrawLayouts::createFrameSets(const Device& device)
                                         storageBinding(shared::kTilesLists, kComputeStage)};
     HEARTH_ASSIGN_OR_RETURN(tiles, createSetLayout(device, tile_bindings));
 
-    const SetBinding light_bindings[] = {storageBinding(shared::kLightsBuffer, kComputeStage),
-                                         storageBinding(shared::kLightsInView, kComputeStage)};
+    const SetBinding light_bindings[] = {storageBinding(shared::kLightsBuffer, kComputeStage)};
     HEARTH_ASSIGN_OR_RETURN(lights, createSetLayout(device, light_bindings));
+
+    const SetBinding pixel_bindings[] = {textureBinding(shared::kPixelsVisibility, kComputeStage)};
+    HEARTH_ASSIGN_OR_RETURN(pixels, createSetLayout(device, pixel_bindings));
 
     const SetBinding post_bindings[] = {textureBinding(shared::kPostRadiance, kFragmentStage),
                                         textureBinding(shared::kPostBloom, kFragmentStage),

@@ -60,7 +60,8 @@ struct DrawLayouts
     UniqueSetLayout cluster_view;     ///< kClusterViewTables
     UniqueSetLayout joined_shading;   ///< scene, material, attachments; with ShadingDescriptors::one_set
     UniqueSetLayout joined_clusters;  ///< cluster_view and visibility buffer; with the same
-    UniqueSetLayout lights;           ///< shared::kLights*: passes that list lights
+    UniqueSetLayout lights;           ///< shared::kLights*: passes that list or count lights
+    UniqueSetLayout pixels;           ///< shared::kPixels*: those of them that go over pixels
     UniqueSetLayout bricks;           ///< shared::kBricks*
     UniqueSetLayout fresh_light;      ///< shared::kFreshLight*
     UniqueSetLayout gather_point;     ///< shared::kGatherPoint*

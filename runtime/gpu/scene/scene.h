@@ -62,8 +62,7 @@ struct SceneBuffers
     Buffer materials, items, order, clusters, bins, group_items;
     // constant except for streaming
     Buffer groups;
-    Buffer cluster_draws;  ///< mapped: rows of a page change while no frame draws it
-    Buffer lights_in_view; ///< shared::CellLight of the frame; frames wait for each other's compute passes
+    Buffer cluster_draws; ///< mapped: rows of a page change while no frame draws it
     std::array<Buffer, shared::kPoolSlices> pool;
     // rewritten by every culling phase, and read by compute shaders only
     Buffer states, results, totals;

@@ -45,7 +45,8 @@ struct SceneFrame
     std::array<VkDescriptorSet, shared::kPoolSlices + 1> stream_copy_sets{};
     VkDescriptorSet brick_copy_set = VK_NULL_HANDLE; ///< of fresh light; scenes with bricks only
     VkDescriptorSet cluster_view_set = VK_NULL_HANDLE;
-    VkDescriptorSet light_set = VK_NULL_HANDLE;                 ///< passes that list lights
+    VkDescriptorSet light_set = VK_NULL_HANDLE;                 ///< passes that list or count lights
+    VkDescriptorSet slot_light_set = VK_NULL_HANDLE;            ///< once LightMethod::forward is prepared
     VkDescriptorSet tile_set = VK_NULL_HANDLE;                  ///< material-tiles pass
     VkDescriptorSet page_request_set = VK_NULL_HANDLE;          ///< streamed scenes only
     VkDescriptorSet deformed_page_request_set = VK_NULL_HANDLE; ///< streamed scenes with deformed meshes

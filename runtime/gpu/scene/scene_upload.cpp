@@ -146,8 +146,6 @@ Status createBuffers(const Device& device, const formats::PackView& pack, const 
     BufferFactory f(device, pack, scene);
     const LightBufferLayout& lights = scene.lights->layout();
     f.makeMirrored(t.lighting, "lights", lights.lists, lights.end - lights.lists, kWorkUsage);
-    f.make(b.lights_in_view, "lights", lights.capacity, sizeof(shared::CellLight),
-           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     f.makeMirrored(t.instances, "instances", pack.instances().size() * sizeof(shared::Instance), 0,
                    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     f.makeMirrored(t.inverses, "instances", pack.instances().size() * sizeof(shared::InstanceInverse), 0,
@@ -284,11 +282,11 @@ Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene
     // more
     const auto frames = static_cast<uint32_t>(scene.frames.size());
     const uint32_t views = frames * (1 + static_cast<uint32_t>(scene.frames.front().casters.size()));
-    const DescriptorPoolSizes sizes{.uniforms = 6 * views + 8 * frames + 2 * material_rows,
-                                    .storages = 56 * views + 66 * frames + 2,
+    const DescriptorPoolSizes sizes{.uniforms = 6 * views + 9 * frames + 2 * material_rows,
+                                    .storages = 56 * views + 71 * frames + 2,
                                     .textures = material_rows * shared::kTextureCount + 4 * views};
     HEARTH_ASSIGN_OR_RETURN(scene.pool,
-                            createDescriptorPool(device, 9 * views + 13 * frames + 1 + material_rows, sizes));
+                            createDescriptorPool(device, 9 * views + 14 * frames + 1 + material_rows, sizes));
     for (uint32_t number = 0; number < frames; ++number)
     {
         SceneFrame& frame = scene.frames[number];
@@ -301,7 +299,6 @@ Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene
         HEARTH_ASSIGN_OR_RETURN(frame.light_set, allocateSet(device, scene.pool.get(), layouts.lights.get()));
         DescriptorWriter(frame.light_set)
             .storage(shared::kLightsBuffer, scene.tables->lighting.copy(number))
-            .storage(shared::kLightsInView, scene.buffers.lights_in_view)
             .write(device);
     }
     return success();

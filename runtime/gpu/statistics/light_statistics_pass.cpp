@@ -2,7 +2,6 @@
 #include "runtime/gpu/statistics/light_statistics_pass.h"
 
 #include "runtime/gpu/vulkan/image_barrier.h"
-#include "runtime/gpu/vulkan/sampler.h"
 #include "runtime/shaders/shaders.h"
 
 #include <cstring>
@@ -23,12 +22,9 @@ Result<LightStatisticsPass> LightStatisticsPass::create(const Device& device, co
 {
     HEARTH_ASSERT(targets.options().keeps_visibility);
     LightStatisticsPass pass;
-    const SetBinding bindings[] = {
-        textureBinding(shared::kLightStatisticsVisibility, VK_SHADER_STAGE_COMPUTE_BIT),
-        storageBinding(shared::kLightStatisticsBuffer, VK_SHADER_STAGE_COMPUTE_BIT)};
-    HEARTH_ASSIGN_OR_RETURN(pass.set_layout_, createSetLayout(device, bindings));
     const NumberedSet sets[] = {{shared::kSetScene, layouts.scene.get()},
-                                {shared::kSetLightStatistics, pass.set_layout_.get()}};
+                                {shared::kSetSceneLights, layouts.lights.get()},
+                                {shared::kSetPixels, layouts.pixels.get()}};
     DrawConstants constants{};
     constants[shared::kConstantUsedSlices] = scene.used_slices;
     constants[shared::kConstantDeformed] =
@@ -39,20 +35,6 @@ Result<LightStatisticsPass> LightStatisticsPass::create(const Device& device, co
         HEARTH_ASSIGN_OR_RETURN(
             pass.pipelines_[method],
             createComputePipeline(device, shaders::light_statistics_comp, sets, 0, constants));
-    }
-    HEARTH_ASSIGN_OR_RETURN(pass.sampler_, createClampingSampler(device, VK_FILTER_NEAREST));
-    const auto frames = static_cast<uint32_t>(scene.frames.size());
-    HEARTH_ASSIGN_OR_RETURN(pass.pool_,
-                            createDescriptorPool(device, frames, {.storages = frames, .textures = frames}));
-    for (uint32_t number = 0; number < frames; ++number)
-    {
-        HEARTH_ASSIGN_OR_RETURN(const VkDescriptorSet set,
-                                allocateSet(device, pass.pool_.get(), pass.set_layout_.get()));
-        DescriptorWriter(set)
-            .texture(shared::kLightStatisticsVisibility, targets.visibility().view.get(), pass.sampler_.get())
-            .storage(shared::kLightStatisticsBuffer, scene.tables->lighting.copy(number))
-            .write(device);
-        pass.sets_.push_back(set);
     }
     return pass;
 }
@@ -67,10 +49,10 @@ void LightStatisticsPass::record(const Device& device, VkCommandBuffer commands,
                VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT,
                VK_PIPELINE_STAGE_ALL_GRAPHICS_BIT | kCompute | VK_PIPELINE_STAGE_TRANSFER_BIT, kCompute);
     const ComputePipeline& pipeline = pipelines_[static_cast<size_t>(method)];
-    const VkDescriptorSet sets[] = {scene.frame().main.draw_set, sets_[scene.tables->frame]};
+    const VkDescriptorSet sets[] = {scene.frame().main.draw_set, scene.frame().light_set, targets.pixelSet()};
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.pipeline.get());
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout.get(),
-                                      shared::kSetScene, 2, sets, 0, nullptr);
+                                      shared::kSetScene, 3, sets, 0, nullptr);
     const auto [width, height] = targets.extent();
     device.vk.vkCmdDispatch(commands, (width + kGroupPixels - 1) / kGroupPixels,
                             (height + kGroupPixels - 1) / kGroupPixels, 1);

@@ -25,11 +25,7 @@ public:
                 const FrameTargets& targets, LightMethod method) const;
 
 private:
-    UniqueSetLayout set_layout_;
-    UniqueDescriptorPool pool_;
-    UniqueSampler sampler_;
     std::array<ComputePipeline, kLightMethodCount> pipelines_;
-    std::vector<VkDescriptorSet> sets_; ///< for each frame in flight
 };
 
 /// Return the counts of the last frame, which has completed.

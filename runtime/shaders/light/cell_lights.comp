@@ -1,6 +1,6 @@
-// Finds the lights of each cell. A workgroup has 8 x 8 cells of a slab: it marks the lights that may meet
-// them, then each thread tests the marked ones for its own cell. Runs twice: to count, and to write the
-// indices.
+// Finds the lights of each cell, or of each that a pixel has marked. A workgroup has 8 x 8 cells of a slab:
+// it marks the lights that may meet them, then each thread tests the marked ones for its own cell. Runs
+// twice: to count, and to write the indices.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -11,9 +11,10 @@
 const uint kBlockCells = 8u; // each way
 layout(local_size_x = kBlockCells * kBlockCells) in;
 
-layout(push_constant) uniform Push { LightCellsPush push; };
+layout(push_constant) uniform Push { LightListsPush push; };
 
 shared uint marks[kMaxLights / 32u];
+shared uint listed_cells;
 
 uint cascadeOfSlab(uint slab)
 {
@@ -29,13 +30,21 @@ void markLights(LightSlab slab, uint slab_number, vec4 edges, uint count)
 {
     for (uint i = gl_LocalInvocationIndex; i < count; i += kBlockCells * kBlockCells)
     {
-        CellLight light = lights_in_view[i];
+        CellLight light = lightInView(i);
         if (slab_number < light.first_slab || slab_number > light.last_slab)
             continue;
         vec4 bounds = lightBounds(lighting.grid, light, slab).edges;
         if (bounds.x <= bounds.y && bounds.x <= edges.y && bounds.y >= edges.x && bounds.z <= edges.w && bounds.w >= edges.z)
             atomicOr(marks[i >> 5], 1u << (i & 31u));
     }
+}
+
+// True if this run has to test the lights of a cell.
+bool needsTests(uint word)
+{
+    if (push.writes != 0u)
+        return lightCellCount(word) != 0u && lightCellCount(word) != kAllLights;
+    return push.marked_only == 0u || word != kUnmarkedCell;
 }
 
 void main()
@@ -49,7 +58,19 @@ void main()
         return;
     for (uint i = gl_LocalInvocationIndex; i < kMaxLights / 32u; i += kBlockCells * kBlockCells)
         marks[i] = 0u;
+    if (gl_LocalInvocationIndex == 0u)
+        listed_cells = 0u;
     barrier();
+    uint column = block.x + gl_LocalInvocationIndex % kBlockCells;
+    uint row_number = block.y + gl_LocalInvocationIndex / kBlockCells;
+    uint cell = lighting.first_cell_word + cascade.first_cell +
+                ((slab_number - cascade.first_slab) * cascade.rows + row_number) * cascade.columns + column;
+    bool is_listed = column < cascade.columns && row_number < cascade.rows && needsTests(light_words[cell]);
+    if (is_listed)
+        atomicAdd(listed_cells, 1u);
+    barrier();
+    if (listed_cells == 0u)
+        return;
     LightSlab slab = lightSlab(lighting.grid, cascade, slab_number - cascade.first_slab);
     bool is_drawn = slab.end > slab.begin;
     if (is_drawn)
@@ -61,16 +82,10 @@ void main()
                    count);
     barrier();
 
-    uint column = block.x + gl_LocalInvocationIndex % kBlockCells;
-    uint row_number = block.y + gl_LocalInvocationIndex / kBlockCells;
-    if (column >= cascade.columns || row_number >= cascade.rows)
+    if (!is_listed)
         return;
-    uint cell = lighting.first_cell_word + cascade.first_cell +
-                ((slab_number - cascade.first_slab) * cascade.rows + row_number) * cascade.columns + column;
     bool writes = push.writes != 0u;
     uint listed = writes ? light_words[cell] : 0u;
-    if (writes && lightCellCount(listed) == kAllLights)
-        return;
     uint word_at = lighting.first_index_word + lightCellOffset(listed);
     LightRow row = LightRow(lightRowEdge(lighting.grid, cascade, row_number), lightRowEdge(lighting.grid, cascade, row_number + 1u));
     vec4 edges = vec4(lightColumnEdge(lighting.grid, cascade, column), lightColumnEdge(lighting.grid, cascade, column + 1u), row.begin, row.end);
@@ -80,7 +95,7 @@ void main()
         for (uint bits = marks[word]; bits != 0u; bits &= bits - 1u)
         {
             uint place = word * 32u + uint(findLSB(bits));
-            CellLight light = lights_in_view[place];
+            CellLight light = lightInView(place);
             LightColumns columns = lightColumns(lighting.grid, cascade, light, slab, row);
             if (int(column) < columns.first || int(column) > columns.last || !reachesCell(lighting.grid, light, slab, edges))
                 continue;

@@ -4,12 +4,20 @@
 #include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/light_cells.h"
 
-layout(set = kSetLights, binding = kLightsBuffer, std140) readonly buffer LightingBlock
+#ifndef HEARTH_LIGHTS_SET
+#define HEARTH_LIGHTS_SET kSetLights
+#endif
+
+// one buffer in three views
+layout(set = HEARTH_LIGHTS_SET, binding = kLightsBuffer, std140) readonly buffer LightingBlock
 {
     Lighting lighting;
     Light lights[];
 };
-layout(set = kSetLights, binding = kLightsBuffer, std430) buffer LightWords { uint light_words[]; };
-layout(set = kSetLights, binding = kLightsInView, std430) buffer LightsInView { CellLight lights_in_view[]; };
+layout(set = HEARTH_LIGHTS_SET, binding = kLightsBuffer, std430) buffer LightWords { uint light_words[]; };
+layout(set = HEARTH_LIGHTS_SET, binding = kLightsBuffer, std430) buffer CellLights { CellLight cell_lights[]; };
 
 uint lightCount(uint which) { return light_words[lighting.first_list_word + which]; }
+
+// Ranged light of the frame.
+CellLight lightInView(uint place) { return cell_lights[lighting.first_in_view + place]; }

@@ -10,16 +10,16 @@
 #include "runtime/shaders/scene/material.glsl"
 #include "runtime/shaders/scene/surface_point.glsl"
 #include "runtime/shaders/scene/resolve.glsl"
-#define HEARTH_LIGHTING_SET kSetLightStatistics
-#define HEARTH_LIGHTING_BINDING kLightStatisticsBuffer
+#define HEARTH_LIGHTING_SET kSetSceneLights
+#define HEARTH_LIGHTING_BINDING kLightsBuffer
 #include "runtime/shaders/scene/light_block.glsl"
 #include "runtime/shaders/shade/light_irradiance.glsl"
 #include "runtime/shaders/shade/light_list.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
 
-layout(set = kSetLightStatistics, binding = kLightStatisticsVisibility) uniform usampler2D visibility;
-layout(set = kSetLightStatistics, binding = kLightStatisticsBuffer, std430) buffer LightCounts { uint light_counts[]; };
+layout(set = kSetPixels, binding = kPixelsVisibility) uniform usampler2D visibility;
+layout(set = kSetSceneLights, binding = kLightsBuffer, std430) buffer LightCounts { uint light_counts[]; };
 
 vec3 reflectedShare(Light light, vec3 from_lamp)
 {
@@ -44,7 +44,7 @@ void main()
         return;
     vec2 place = vec2(pixel) + 0.5;
     Surface s = resolveSurface(id, place);
-    LightListing listing = findLights(s.position, place);
+    LightListing listing = findLights(s.position, place, s.slot_number);
     uint reaching = 0u;
     for (uint i = 0u; i < listing.count; ++i)
     {

@@ -1,13 +1,16 @@
 // Lists the lights of the frame in one workgroup: those that every point gets, then those with a range that
-// reach into the view. Both rise.
+// reach into the view. Both rise. Takes the marks of the last frame's pixels from the cells.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/push_constants.h"
 #include "formats/gpu_shared/shading.h"
 #include "runtime/shaders/cull/scan.glsl"
 #include "runtime/shaders/light/light_buffer.glsl"
 
 layout(local_size_x = kScanThreads) in;
+
+layout(push_constant) uniform Push { LightListsPush push; };
 
 // Number of the slab of a depth, counted over all cascades.
 uint slabNumber(float depth)
@@ -50,10 +53,12 @@ void main()
             light.first_slab = slabNumber(nearest);
             light.last_slab = slabNumber(farthest);
             light_words[first_row + unranged_count + place] = row;
-            lights_in_view[place] = light;
+            cell_lights[lighting.first_in_view + place] = light;
         }
         ranged += total;
     }
+    for (uint cell = gl_LocalInvocationIndex; push.marked_only != 0u && cell < lighting.list_count; cell += kScanThreads)
+        light_words[lighting.first_cell_word + cell] = kUnmarkedCell;
     // passes that follow set the other counts or add to them
     uint word = gl_LocalInvocationIndex;
     if (word < kLightCountWords)

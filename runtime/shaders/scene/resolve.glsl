@@ -7,6 +7,7 @@
 
 struct Surface
 {
+    uint slot_number;
     VisibleCluster slot;
     Instance instance;
     ClusterDraw draw;
@@ -29,11 +30,12 @@ bool isMirrored(Instance instance) { return (instance.flags & kInstanceMirrored)
 Surface resolveSurface(uint id, vec2 pixel)
 {
     Surface s;
-    s.slot = visible[id >> kTriangleBits];
+    s.slot_number = id >> kTriangleBits;
+    s.slot = visible[s.slot_number];
     s.triangle = id & ((1u << kTriangleBits) - 1u);
     s.instance = instances[s.slot.instance];
     s.draw = cluster_draws[s.slot.cluster];
-    s.pose = drawnPose(s.slot.instance, id >> kTriangleBits);
+    s.pose = drawnPose(s.slot.instance, s.slot_number);
 
     vec2 ndc = pixel * 2.0 / vec2(view.width, view.height) - 1.0;
     vec2 p[3]; // clip positions with the pixel moved to the origin: small numbers, little cancellation
@@ -237,6 +239,7 @@ SurfacePoint surfacePoint(Surface s)
     point.front = s.front;
     point.sky = surfaceSky(s, point.normal);
     point.instance = s.slot.instance;
+    point.slot = s.slot_number;
     // the back of a sheet sees the mirror image of the sky that its front sees
     if (!s.front)
         point.sky.m1 -= point.normal * (2.0 * dot(point.normal, point.sky.m1));

@@ -20,6 +20,7 @@ struct SurfacePoint
     bool front;     // the front side is visible
     VisibilityMoments sky; // sky visibility: world axes, towards the visible side
     uint instance;
+    uint slot; // of the visible list
 };
 
 struct SurfaceUv

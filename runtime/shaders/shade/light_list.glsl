@@ -13,17 +13,32 @@ struct LightListing
     bool has_indices; // false: the ranged lights are all of the frame's
 };
 
+// Word of the list of a point, as in findLights.
+uint listWord(vec3 position, vec2 pixel, uint slot)
+{
+    if (kLightList == kLightListSlots && slot >= lighting.list_count)
+        return lightCellWord(0u, kAllLights);
+    uint number = slot;
+    if (kLightList == kLightListTiles)
+        number = lightCellAt(lighting.tiles, pixel.x, pixel.y, 0.0);
+    if (kLightList == kLightListCells)
+    {
+        float depth = dot(view.clip_w.xyz, position);
+        number = lightCellAt(lighting.cascades[lightCascadeAt(depth)], pixel.x, pixel.y, depth);
+    }
+    return light_words[lighting.first_cell_word + number];
+}
+
 // position  relative to the eye
-LightListing findLights(vec3 position, vec2 pixel)
+// slot      of the visible list
+LightListing findLights(vec3 position, vec2 pixel, uint slot)
 {
     uint unranged_count = light_words[lighting.first_list_word + kCountUnranged];
     uint ranged = light_words[lighting.first_list_word + kCountRanged];
     LightListing listing = LightListing(unranged_count, unranged_count + ranged, 0u, false);
     if (kLightList == kLightListFrame || ranged == 0u)
         return listing;
-    float depth = dot(view.clip_w.xyz, position);
-    LightCascade cascade = lighting.cascades[lightCascadeAt(depth)];
-    uint word = light_words[lighting.first_cell_word + lightCellAt(cascade, pixel.x, pixel.y, depth)];
+    uint word = listWord(position, pixel, slot);
     uint count = lightCellCount(word);
     listing.has_indices = count != kAllLights;
     if (listing.has_indices)

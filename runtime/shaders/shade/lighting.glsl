@@ -37,7 +37,7 @@ vec3 lit(SurfacePoint point, SurfaceUvs uvs, mediump vec3 base)
     Layers layers = surfaceLayers(point, uvs, shading);
 
     vec3 radiance = vec3(0.0);
-    LightListing listing = findLights(point.position, gl_FragCoord.xy);
+    LightListing listing = findLights(point.position, gl_FragCoord.xy, point.slot);
     for (uint i = 0u; i < listing.count; ++i)
     {
         uint row = listedLight(listing, i);

@@ -56,7 +56,7 @@ vec3 lightColor(Surface s)
 {
     if (push.debug_view == kViewLightCount)
     {
-        LightListing listing = findLights(s.position, gl_FragCoord.xy);
+        LightListing listing = findLights(s.position, gl_FragCoord.xy, s.slot_number);
         return countColor(listing.count - listing.unranged_count);
     }
     float depth = dot(view.clip_w.xyz, s.position);

@@ -406,7 +406,9 @@ void printTraffic()
         const gpu::FrameDescription frame =
             gpu::describeFrame({.occlusion = gpu::OcclusionCulling::last_frame,
                                 .materials = gpu::MaterialTest::id,
-                                .lists_lights = true});
+                                .lists_lights = true,
+                                .lists_slots = method.areas == gpu::LightAreas::slots,
+                                .lists_visible = needPixels(method.areas)});
         const gpu::Traffic traffic = gpu::measureTraffic(frame);
         std::printf("  %-18s %6.1f %6.1f\n", method.name, traffic.low, traffic.high);
     }

@@ -3,8 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/gpu_shared/light_cells.h"
-#include "runtime/frame/light_grid.h"
+#include "runtime/frame/light_lists.h"
 
 #include <algorithm>
 #include <array>

@@ -108,13 +108,21 @@ protected:
         TestScene test;
         test.addInstance(test.addMesh(withMaterial(shapes::rock(10, 0.2f), kInvalidIndex)), Affine3{});
         const formats::PackView pack = test.build();
-        uploadWith(recorded, pack, {});
+        const auto scene = uploadWith(recorded, pack, {});
+        prepareLights(recorded, *scene);
+    }
+
+    static void prepareLights(gpu::Renderer& recorded, gpu::Scene& scene)
+    {
+        for (size_t method = 0; method < gpu::kLightMethodCount; ++method)
+            EXPECT_TRUE(recorded.prepareLightMethod(scene, static_cast<gpu::LightMethod>(method)).ok());
     }
 
     void uploadDeformed(gpu::Renderer& recorded)
     {
         const DeformedScene deformed({.rings = 8}, 1);
         const auto scene = uploadWith(recorded, deformed.pack(), {.shadows = {.max_maps = 4}});
+        prepareLights(recorded, *scene);
         EXPECT_TRUE(gpu::CullStatisticsPass::create(recorded.device(), *scene).ok());
         const auto targets = recorded.createTargets({16, 16}, {.keeps_visibility = true});
         ASSERT_TRUE(targets.ok());

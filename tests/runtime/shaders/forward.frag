@@ -30,6 +30,7 @@ void main()
     completeFrame(point.normal, in_tangent, in_side, point.tangent, point.bitangent);
     point.sky = openSky(point.normal);
     point.instance = 0u; // not read without occlusion
+    point.slot = 0u;     // nor this one by the default light method
     point.color = in_color;
     // two-sided materials: mirrored instances are drawn without reversing the front face
     bool turned = (material.flags & kMaterialDoubleSided) != 0u && in_mirrored != 0u;

@@ -34,6 +34,11 @@ std::vector<FrameConfiguration> everyConfiguration()
                     c.lights_bricks = rich;
                     if (rich)
                         addMapsOfAllKinds(c);
+                    // lists of lights: of cells, of slots, or of what pixels show
+                    const uint32_t lists = random() % 4;
+                    c.lists_lights = lists > 0;
+                    c.lists_slots = lists == 2;
+                    c.lists_visible = lists == 3;
                     all.push_back(c);
                     // what follows shading does not depend on what lies before it: some have a final pass
                     if (random() % 8 != 0)
@@ -186,6 +191,7 @@ const AllowedWarning kAllowed[] = {
     {LintRule::bubble, "pyramid", "depth", "the next frame culls against it; nothing of this frame waits"},
     {LintRule::bubble, "last pyramid", "depth",
      "as above; the last frame's fragments, and the culling of this one lies in front"},
+    {LintRule::bubble, "visible lights", "visibility", "lights are listed for what pixels show"},
     {LintRule::bubble, "material tiles", "visibility",
      "many materials: a tile is drawn for those that it has"},
     {LintRule::bubble, "gather light", "visibility", "light is gathered where surfaces are visible"},
@@ -278,7 +284,8 @@ TEST(FramePasses, theNextFramesGeometryDoesNotWaitForShading)
                 continue;
             }
             if (step == FrameStep::early_pyramid || step == FrameStep::pyramid ||
-                step == FrameStep::material_tiles || step == FrameStep::gather)
+                step == FrameStep::visible_lights || step == FrameStep::material_tiles ||
+                step == FrameStep::gather)
                 break; // waits for this frame's own fragments
             if (pass.kind != PassKind::transfer)
             {
@@ -413,7 +420,52 @@ TEST(FramePasses, haveFewBytesAPixel)
         EXPECT_LE(gather.high, base.high + 10);
         EXPECT_LE(all.low, base.low + 22);
         EXPECT_LE(all.high, base.high + 22);
+        // lists of lights: nothing, or the visibility buffer three times, stored and read twice
+        FrameConfiguration slots = plain, pixels = plain;
+        slots.lists_lights = slots.lists_slots = true;
+        pixels.lists_lights = pixels.lists_visible = true;
+        EXPECT_DOUBLE_EQ(measureTraffic(describeFrame(slots)).low, base.low);
+        EXPECT_DOUBLE_EQ(measureTraffic(describeFrame(slots)).high, base.high);
+        EXPECT_LE(measureTraffic(describeFrame(pixels)).low, base.low + 12);
+        EXPECT_LE(measureTraffic(describeFrame(pixels)).high, base.high + 12);
     }
+}
+
+/// A frame that lists lights for visible pixels is recorded by the plan of frames in parts.
+TEST(FramePasses, listsOfWhatPixelsShowTakeThePlansOfParts)
+{
+    for (const FrameWay way : kFrameWays)
+        for (FrameConfiguration c : allConfigurations(way, MaterialTest::depth, true))
+        {
+            if (c.in_parts)
+                continue;
+            FrameConfiguration planned = c;
+            planned.in_parts = true;
+            addLightLists(planned);
+            c.lists_lights = c.lists_visible = true;
+            ASSERT_EQ(configurationIndex(c), configurationIndex(planned));
+            std::vector<Pass> passes = describeFrame(c).passes;
+            std::vector<Pass> of_plan = describeFrame(planned).passes;
+            std::erase_if(of_plan, [](const Pass& p) { return p.steps.front() == FrameStep::slot_lights; });
+            ASSERT_EQ(passes.size(), of_plan.size()) << nameConfiguration(c);
+            for (size_t i = 0; i < passes.size(); ++i)
+            {
+                EXPECT_EQ(passes[i].steps, of_plan[i].steps);
+                ASSERT_EQ(passes[i].attachments.size(), of_plan[i].attachments.size());
+                for (size_t a = 0; a < passes[i].attachments.size(); ++a)
+                {
+                    const AttachmentUse& use = passes[i].attachments[a];
+                    const AttachmentUse& other = of_plan[i].attachments[a];
+                    EXPECT_EQ(use.resource, other.resource);
+                    EXPECT_EQ(use.load, other.load);
+                    EXPECT_EQ(use.store, other.store);
+                    EXPECT_EQ(use.initial_layout, other.initial_layout);
+                    EXPECT_EQ(use.final_layout, other.final_layout);
+                }
+                EXPECT_EQ(passes[i].barrier.to & ~of_plan[i].barrier.to, 0u);
+                EXPECT_EQ(passes[i].fragment_barrier.to & ~of_plan[i].fragment_barrier.to, 0u);
+            }
+        }
 }
 
 TEST(FramePasses, separateTakeTheBytesOfUnmergedSubpasses)

@@ -1,16 +1,15 @@
-// Tests that the device lists lights as the CPU does, word for word, and that all light methods draw one
-// image.
+// Tests that the device lists lights of cells as the CPU does, word for word, and that all light methods draw
+// one image.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/statistics/light_statistics_pass.h"
 #include "tests/runtime/gpu/brick_scene.h"
 #include "tests/runtime/gpu/deformed_scene.h"
+#include "tests/runtime/gpu/lights/random_light.h"
 #include "tests/support/gpu_fixture.h"
-#include "tests/support/lit_scene.h"
 #include "tests/support/shapes.h"
 
 #include <algorithm>
 #include <cstdlib>
-#include <numbers>
 
 namespace hearth::test
 {
@@ -20,23 +19,6 @@ namespace
 
 using formats::LightRecord;
 using formats::LightType;
-
-constexpr float kRightAngle = 0.5f * std::numbers::pi_v<float>;
-
-/// Light somewhere over the ground of the test scene: a lamp, or a spot of 1 to 90 degrees.
-LightRecord randomLight(std::mt19937& random, float most_range)
-{
-    const Float3 position{uniform(random, -10, 10), uniform(random, 0.1f, 3), uniform(random, -10, 10)};
-    const Float3 direction{uniform(random, -1, 1), uniform(random, -1, 0.3f), uniform(random, -1, 1)};
-    const bool is_spot = random() % 2 == 0;
-    LightRecord record =
-        light(is_spot ? LightType::spot : LightType::point, position, direction, uniform(random, 0.2f, 2));
-    record.color = {uniform(random, 0.2f, 1), uniform(random, 0.2f, 1), uniform(random, 0.2f, 1)};
-    record.range = uniform(random, 0.3f, 1) * most_range;
-    record.outer_cone_rad = random() % 8 == 0 ? kRightAngle : uniform(random, 1.0f / 90, 1) * kRightAngle;
-    record.inner_cone_rad = record.outer_cone_rad * uniform(random, 0, 0.9f);
-    return record;
-}
 
 class LightMethodsTest : public GpuTest
 {
@@ -81,6 +63,11 @@ protected:
     {
         pack_.emplace(test_.build());
         scene_ = upload(*pack_, options);
+        prepareMethods();
+    }
+
+    void prepareMethods()
+    {
         for (size_t method = 0; method < gpu::kLightMethodCount; ++method)
             ASSERT_TRUE(renderer().prepareLightMethod(*scene_, static_cast<gpu::LightMethod>(method)).ok());
     }
@@ -104,15 +91,19 @@ protected:
         return words;
     }
 
-    /// Compare the lists of both processors in a frame, and the images of all methods.
+    /// Compare the lists of both processors in a frame, and the images of all methods. The last frame is the
+    /// default method's.
     void expectOneImage(const shared::Camera& camera, const DrawOptions& options = {})
     {
         DrawOptions drawn = options;
         drawn.light_method = gpu::LightMethod::all;
         const Image expected = draw(*scene_, camera, drawn);
-        for (size_t method = 0; method < gpu::kLightMethodCount; ++method)
+        for (size_t method = gpu::kLightMethodCount; method-- > 0;)
             for (const gpu::LightLister lister : {gpu::LightLister::gpu, gpu::LightLister::cpu})
             {
+                if (lister == gpu::LightLister::cpu &&
+                    gpu::kLightMethods[method].areas != gpu::LightAreas::cells)
+                    continue;
                 drawn.light_method = static_cast<gpu::LightMethod>(method);
                 drawn.light_lister = lister;
                 const Image image = draw(*scene_, camera, drawn);
@@ -167,7 +158,7 @@ TEST_F(LightMethodsTest, drawOneImageOfCharacters)
 {
     const DeformedScene characters({.rings = 12}, 5);
     scene_ = upload(characters.pack(), {.max_lights = 200});
-    ASSERT_TRUE(renderer().prepareLightMethod(*scene_, gpu::LightMethod::all).ok());
+    prepareMethods();
     std::vector<gpu::LightChange> changes;
     for (uint32_t slot = 0; slot < 100; ++slot)
         changes.push_back(gpu::changeLight(*scene_, slot, randomLight(random_, 8)).value());
@@ -201,7 +192,9 @@ TEST_F(LightMethodsTest, drawOneImageWithBricks)
             image = draw(*scene, targets, kOverview, {.light_method = method});
         return image.color;
     };
-    EXPECT_EQ(settle(gpu::LightMethod::practical), settle(gpu::LightMethod::all));
+    const std::vector<uint32_t> expected = settle(gpu::LightMethod::all);
+    for (size_t method = 0; method < gpu::kLightMethodCount; ++method)
+        EXPECT_EQ(settle(static_cast<gpu::LightMethod>(method)), expected) << gpu::kLightMethods[method].name;
 }
 
 TEST_F(LightMethodsTest, drawOneImageWhereListsOverflow)
@@ -211,6 +204,106 @@ TEST_F(LightMethodsTest, drawOneImageWhereListsOverflow)
     load();
     expectOneImage(kOverview, {.width = 320, .height = 240});
     EXPECT_GT(gpu::readLightCounts(*scene_).overflows, 0u);
+}
+
+TEST_F(LightMethodsTest, drawOneImageWhereListsOfTilesAndSlotsOverflow)
+{
+    addGround();
+    const uint32_t sheet =
+        test_.addMesh(withMaterial(makeQuad(0.2f, 0.2f), test_.addMaterial(plainMaterial())));
+    for (uint32_t i = 0; i < 400; ++i)
+        test_.addInstance(sheet, lying({static_cast<float>(i % 20) * 0.3f - 3, 0.3f,
+                                        static_cast<float>(i / 20) * 0.3f - 3}));
+    addLights(160, 100);
+    for (LightRecord& record : test_.model().lights)
+        record.type = static_cast<uint32_t>(LightType::point);
+    load();
+    constexpr shared::Camera kFromAbove{.position = {0, 6, 0.1f}, .target = {0, 0, 0}};
+    // there is room for 160 x 256 indices, and each of 300 tiles and 400 slots has 160
+    for (const gpu::LightMethod method : {gpu::LightMethod::tiled_forward, gpu::LightMethod::forward})
+    {
+        DrawOptions options{.width = 640, .height = 480, .light_method = gpu::LightMethod::all};
+        const Image expected = draw(*scene_, kFromAbove, options);
+        options.light_method = method;
+        EXPECT_EQ(draw(*scene_, kFromAbove, options).color, expected.color);
+        EXPECT_GT(gpu::readLightCounts(*scene_).overflows, 0u);
+    }
+}
+
+TEST_F(LightMethodsTest, drawOneImageInTheFrameThatAddsTheFirstLight)
+{
+    addGround();
+    Image expected;
+    for (const gpu::LightMethod method :
+         {gpu::LightMethod::all, gpu::LightMethod::practical, gpu::LightMethod::tiled_forward,
+          gpu::LightMethod::clustered_forward, gpu::LightMethod::forward})
+    {
+        load({.max_lights = 4});
+        std::mt19937 random(5);
+        const gpu::LightChange lamp = gpu::changeLight(*scene_, 2, randomLight(random, 8)).value();
+        gpu::FrameTargets targets = makeTargets(160, 120);
+        const Image dark = draw(*scene_, targets, kOverview, {.light_method = method});
+        const Image lit = draw(*scene_, targets, kOverview, {.lights = {&lamp, 1}, .light_method = method});
+        EXPECT_NE(lit.color, dark.color);
+        if (method == gpu::LightMethod::all)
+            expected = lit;
+        EXPECT_EQ(lit.color, expected.color) << gpu::lightMethodFacts(method).name;
+    }
+}
+
+/// A frame after one of another method finds its marks, words and counts.
+TEST_F(LightMethodsTest, drawOneImageWhenTheMethodChangesFromFrameToFrame)
+{
+    addGround();
+    addSuns();
+    addLights(192, 5);
+    load();
+    gpu::FrameTargets targets = makeTargets(160, 120);
+    DrawOptions options{.light_method = gpu::LightMethod::all};
+    const Image expected = draw(*scene_, targets, kOverview, options);
+    for (int frame = 0; frame < 24; ++frame)
+    {
+        options.light_method = static_cast<gpu::LightMethod>(random_() % gpu::kLightMethodCount);
+        EXPECT_EQ(draw(*scene_, targets, kOverview, options).color, expected.color)
+            << frame << ": " << gpu::lightMethodFacts(options.light_method).name;
+    }
+}
+
+TEST_F(LightMethodsTest, drawOneImageInAllCullingsAndInParts)
+{
+    addGround();
+    addLights(192, 5);
+    load();
+    const Image expected = draw(*scene_, kOverview, {.light_method = gpu::LightMethod::all});
+    for (size_t method = 0; method < gpu::kLightMethodCount; ++method)
+        for (const bool occlusion : {false, true})
+            for (const bool last_frame : {false, true})
+                for (const bool in_parts : {false, true})
+                {
+                    gpu::FrameTargets targets = makeTargets(160, 120);
+                    const uint32_t flags = occlusion ? shared::kCullEverything
+                                                     : shared::kCullEverything & ~shared::kCullOcclusion;
+                    const gpu::FrameInput input{
+                        .view = makeView(*scene_, kOverview, {.flags = flags}),
+                        .shading = {.light_method = static_cast<gpu::LightMethod>(method)},
+                        .occludes_by_last_frame = last_frame};
+                    const Status status = host().run(
+                        [&](VkCommandBuffer commands)
+                        {
+                            if (in_parts)
+                            {
+                                renderer().recordCull(commands, *scene_, targets, input);
+                                renderer().recordVisibility(commands, *scene_, targets, input);
+                                renderer().recordMaterials(commands, *scene_, targets, input);
+                            }
+                            else
+                                renderer().record(commands, *scene_, targets, input);
+                            return success();
+                        });
+                    ASSERT_TRUE(status.ok());
+                    EXPECT_EQ(readImage(*scene_, targets).color, expected.color)
+                        << gpu::kLightMethods[method].name << occlusion << last_frame << in_parts;
+                }
 }
 
 TEST_F(LightMethodsTest, drawNothingOfLightsThatAreOff)
@@ -251,6 +344,12 @@ TEST_F(LightMethodsTest, drawLightsThatFramesAddChangeAndRemove)
         EXPECT_EQ(draw(*scene_, targets, kOverview, {.light_lister = gpu::LightLister::cpu}).color,
                   image.color);
         EXPECT_EQ(lists(), on_gpu);
+        for (size_t method = 0; method < gpu::kLightMethodCount; ++method)
+            EXPECT_EQ(
+                draw(*scene_, targets, kOverview, {.light_method = static_cast<gpu::LightMethod>(method)})
+                    .color,
+                image.color)
+                << gpu::kLightMethods[method].name;
         // as a scene that has had these lights all along: exposure is that of the scene as loaded
         std::vector<gpu::LightChange> all;
         const auto fresh = upload(*pack_, {.max_lights = 300});
@@ -298,69 +397,6 @@ TEST_F(LightMethodsTest, thousandsOfLightsMayAllChangeInEachFrame)
         ASSERT_EQ(lists(), expected) << "frame " << frame;
     }
     EXPECT_EQ(scene_->arena.allocatedBytes(), bytes);
-}
-
-TEST_F(LightMethodsTest, statisticsCountWhatPixelsEvaluate)
-{
-    // a ground seen from straight above: places of pixels are known
-    const uint32_t stone = test_.addMaterial(plainMaterial());
-    test_.addInstance(test_.addMesh(withMaterial(makeQuad(100, 100), stone)), lying({}));
-    addLights(192, 6);
-    load();
-    constexpr uint32_t kWidth = 160, kHeight = 120;
-    const shared::Camera camera{.position = {0, 8, 0}, .target = {0, 0, 0}, .up = {0, 0, -1}};
-    gpu::FrameTargets targets = makeTargets(kWidth, kHeight);
-    const auto pass =
-        gpu::LightStatisticsPass::create(renderer().device(), renderer().layouts(), *scene_, targets);
-    ASSERT_TRUE(pass.ok());
-    const auto count = [&](gpu::LightMethod method)
-    {
-        draw(*scene_, targets, camera, {.light_method = method});
-        EXPECT_TRUE(host()
-                        .run(
-                            [&](VkCommandBuffer commands)
-                            {
-                                pass->record(renderer().device(), commands, *scene_, targets, method);
-                                return success();
-                            })
-                        .ok());
-        return gpu::readLightCounts(*scene_);
-    };
-    const shared::LightListCounts cells = count(gpu::LightMethod::practical);
-    const shared::LightListCounts all = count(gpu::LightMethod::all);
-    const shared::LightListCounts again = count(gpu::LightMethod::practical);
-    EXPECT_EQ(again.evaluated_low, cells.evaluated_low) << "counts begin anew in each frame";
-    EXPECT_EQ(all.pixels, kWidth * kHeight);
-    EXPECT_EQ(all.evaluated_low, kWidth * kHeight * all.ranged);
-    EXPECT_EQ(all.longest, all.ranged);
-    EXPECT_EQ(cells.reaching_low, all.reaching_low);
-    EXPECT_LT(cells.evaluated_low, all.evaluated_low / 2);
-
-    // the same by double and from the records
-    uint32_t reaching = 0;
-    const double half_height = 8 * std::tan(0.5 * double{camera.y_fov_rad});
-    const double pixel = 2 * half_height / kHeight;
-    for (uint32_t y = 0; y < kHeight; ++y)
-        for (uint32_t x = 0; x < kWidth; ++x)
-        {
-            const double place[] = {(x + 0.5 - kWidth / 2.0) * pixel, 0, (y + 0.5 - kHeight / 2.0) * pixel};
-            for (const LightRecord& record : test_.model().lights)
-            {
-                const auto& m = record.world_from_light.m;
-                double distance2 = 0, along = 0;
-                for (size_t axis = 0; axis < 3; ++axis)
-                {
-                    const double offset = place[axis] - double{m[axis][3]};
-                    distance2 += offset * offset;
-                    along -= offset * double{m[axis][2]};
-                }
-                const double distance = std::sqrt(distance2);
-                reaching += distance < double{record.range} &&
-                            (record.type == static_cast<uint32_t>(LightType::point) ||
-                             along > distance * std::cos(double{record.outer_cone_rad}));
-            }
-        }
-    EXPECT_NEAR(all.reaching_low, reaching, 1e-3 * reaching) << "pixels on the edge of a light may differ";
 }
 
 } // namespace hearth::test
