@@ -239,8 +239,9 @@ TEST_F(LightMethodsTest, drawOneImageInTheFrameThatAddsTheFirstLight)
           gpu::LightMethod::clustered_forward, gpu::LightMethod::forward})
     {
         load({.max_lights = 4});
-        std::mt19937 random(5);
-        const gpu::LightChange lamp = gpu::changeLight(*scene_, 2, randomLight(random, 8)).value();
+        LightRecord record = light(LightType::point, {0, 2, 0}, {0, -1, 0}, 10);
+        record.range = 8;
+        const gpu::LightChange lamp = gpu::changeLight(*scene_, 2, record).value();
         gpu::FrameTargets targets = makeTargets(160, 120);
         const Image dark = draw(*scene_, targets, kOverview, {.light_method = method});
         const Image lit = draw(*scene_, targets, kOverview, {.lights = {&lamp, 1}, .light_method = method});
