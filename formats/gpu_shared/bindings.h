@@ -50,8 +50,18 @@ HEARTH_CONSTANT uint kAttachmentVisibility = 25;
 HEARTH_CONSTANT uint kAttachmentTileLists = 26;
 HEARTH_CONSTANT uint kAttachmentGi = 27; ///< result of the gather passes, for frames with GI
 
+/// Bindings of the images that lights read, beside some of the scene, in the only set of the pipelines that
+/// light stored surfaces.
+HEARTH_CONSTANT uint kAttachmentSurfaces = 28;
+HEARTH_CONSTANT uint kAttachmentDepth = 29;
+
 /// Index of the visibility buffer among the input attachments of the subpasses that read it.
 HEARTH_CONSTANT uint kInputVisibility = 0;
+/// Indices of the depth and of stored surfaces among those of the subpass that adds lights.
+HEARTH_CONSTANT uint kInputDepth = 0;
+HEARTH_CONSTANT uint kInputSurfaces = 1;
+/// Index of the radiance among those of the subpass that finishes it.
+HEARTH_CONSTANT uint kInputRadiance = 0;
 
 /// Sets of the compute passes over the tables of a scene, and of the debug views of clusters.
 HEARTH_CONSTANT uint kSetTables = 0;

@@ -29,7 +29,9 @@ namespace hearth::shared
 using uint = uint32_t;
 using std::abs;
 using std::acos;
+using std::cos;
 using std::floor;
+using std::sin;
 using std::sqrt;
 inline float max(float a, float b)
 {

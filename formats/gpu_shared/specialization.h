@@ -23,13 +23,16 @@ HEARTH_CONSTANT uint kConstantFiltersShadows = 8;
 HEARTH_CONSTANT uint kConstantLightList = 9; ///< lights that a pixel evaluates, below
 /// Colour that shading writes, and the format of bloom: kStored*, below.
 HEARTH_CONSTANT uint kConstantStored = 10;
-HEARTH_CONSTANT uint kConstantCount = 11;
+HEARTH_CONSTANT uint kConstantReflects = 11; ///< 1: what surrounds lamps gives light back (reflector.h)
+HEARTH_CONSTANT uint kConstantCount = 12;
 
 /// Lights that a pixel evaluates, beside those that every point gets.
 HEARTH_CONSTANT uint kLightListFrame = 0; ///< all of the frame
 HEARTH_CONSTANT uint kLightListCells = 1; ///< those of its cell of the light grid
 HEARTH_CONSTANT uint kLightListTiles = 2; ///< those of its tile of the image
 HEARTH_CONSTANT uint kLightListSlots = 3; ///< those of its slot of the visible list
+/// None: light_volume.h is drawn for each of the frame.
+HEARTH_CONSTANT uint kLightListVolumes = 4;
 
 /// Source of the vertices of deformed meshes.
 HEARTH_CONSTANT uint kDeformedNone = 0; ///< no deformed meshes: rigid scenes and bins pay nothing for them

@@ -95,6 +95,32 @@ Status check(const hearth_renderer& renderer, const hearth_frame& frame)
     return checkPost(*renderer.renderer, frame);
 }
 
+gpu::PostSettings makePost(const hearth_frame& frame)
+{
+    gpu::PostSettings post{.exposure_stops = frame.exposure_stops,
+                           .photo_filter = {toFloat3(frame.filter_color), frame.filter_density},
+                           .bloom = {frame.bloom_strength, frame.bloom_mode == HEARTH_BLOOM_ADD
+                                                               ? gpu::BloomMode::add
+                                                               : gpu::BloomMode::mix}};
+    if (frame.automatic_exposure != 0)
+        post.automatic_exposure = {frame.exposure_key, frame.exposure_time_constant,
+                                   frame.exposure_time_step};
+    return post;
+}
+
+gpu::ShadingSettings makeShading(const hearth_frame& frame)
+{
+    return {.debug_view = frame.debug_view,
+            .depth_scale = frame.depth_scale,
+            .area = static_cast<gpu::ShadedArea>(frame.shaded_area),
+            .ambient_occlusion = frame.ambient_occlusion,
+            .specular_occlusion = frame.specular_occlusion,
+            .gi = frame.constant_sky == 0,
+            .light_method = static_cast<gpu::LightMethod>(frame.light_method),
+            .light_lister = static_cast<gpu::LightLister>(frame.light_lists),
+            .post = makePost(frame)};
+}
+
 /// Check a frame of the scene with the targets.
 Status checkFrame(const hearth_scene& scene, const hearth_targets& targets, const hearth_frame* frame)
 {
@@ -109,6 +135,9 @@ Status checkFrame(const hearth_scene& scene, const hearth_targets& targets, cons
     if (frame->light_method >= gpu::kLightMethodCount ||
         (scene.prepared_lights >> frame->light_method & 1) == 0)
         return usage("light_method is unknown, or hearth_scene_prepare_lights has not prepared it");
+    const gpu::LightPath path = gpu::neededLightPath(targets.targets, makeShading(*frame));
+    if (path > targets.targets.options().light_path)
+        return usage("light_method needs targets with HEARTH_TARGETS_DEFERRED");
     const bool blooms = frame->bloom_strength > 0 || frame->automatic_exposure != 0;
     if (blooms && !targets.targets.options().may_bloom)
         return usage("bloom_strength and automatic_exposure need targets with HEARTH_TARGETS_BLOOM");
@@ -224,34 +253,13 @@ Status makePoses(hearth_scene& scene, const hearth_frame& frame)
     return success();
 }
 
-gpu::PostSettings makePost(const hearth_frame& frame)
-{
-    gpu::PostSettings post{.exposure_stops = frame.exposure_stops,
-                           .photo_filter = {toFloat3(frame.filter_color), frame.filter_density},
-                           .bloom = {frame.bloom_strength, frame.bloom_mode == HEARTH_BLOOM_ADD
-                                                               ? gpu::BloomMode::add
-                                                               : gpu::BloomMode::mix}};
-    if (frame.automatic_exposure != 0)
-        post.automatic_exposure = {frame.exposure_key, frame.exposure_time_constant,
-                                   frame.exposure_time_step};
-    return post;
-}
-
 /// Uses the moves, poses, lights and shadow spheres of the frame's first part.
 Result<gpu::FrameInput> makeInput(const hearth_scene& scene, const gpu::FrameTargets& targets,
                                   const hearth_frame& frame)
 {
     HEARTH_ASSIGN_OR_RETURN(const shared::FrameView view, makeView(scene, targets, frame));
     return gpu::FrameInput{.view = view,
-                           .shading = {.debug_view = frame.debug_view,
-                                       .depth_scale = frame.depth_scale,
-                                       .area = static_cast<gpu::ShadedArea>(frame.shaded_area),
-                                       .ambient_occlusion = frame.ambient_occlusion,
-                                       .specular_occlusion = frame.specular_occlusion,
-                                       .gi = frame.constant_sky == 0,
-                                       .light_method = static_cast<gpu::LightMethod>(frame.light_method),
-                                       .light_lister = static_cast<gpu::LightLister>(frame.light_lists),
-                                       .post = makePost(frame)},
+                           .shading = makeShading(frame),
                            .occludes_by_last_frame = frame.occlusion == HEARTH_OCCLUSION_LAST_FRAME,
                            .moves = scene.moves,
                            .poses = scene.poses,

@@ -108,7 +108,10 @@ enum
     HEARTH_FEATURE_DEBUG_LABELS = 4,       /* 1.1: the caller enabled VK_EXT_debug_utils: name the passes */
     HEARTH_FEATURE_GRADING = 8,            /* 1.8: frames may have exposure_stops and a photo filter */
     /* 1.8: and bloom, automatic exposure, and targets with another output size; twice the pipelines that shade */
-    HEARTH_FEATURE_FINAL_PASS = 16
+    HEARTH_FEATURE_FINAL_PASS = 16,
+    /* 1.8: and the light methods that store surfaces (HEARTH_LIGHTS_DEFERRED and the like). Implies
+     * HEARTH_MATERIALS_ID and HEARTH_FEATURE_FINAL_PASS, with linear colours of 8 bytes a pixel. */
+    HEARTH_FEATURE_DEFERRED = 32
 };
 
 /* Purpose of device memory. */
@@ -415,7 +418,12 @@ enum
      * where the scene does not need it */
     HEARTH_TARGETS_SPLIT = 2,
     HEARTH_TARGETS_COUNT_MISSING = 4, /* hearth_record_missing may follow a frame: takes a second pyramid */
-    HEARTH_TARGETS_BLOOM = 8 /* frames may have bloom or automatic exposure; with HEARTH_FEATURE_FINAL_PASS */
+    HEARTH_TARGETS_BLOOM = 8, /* frames may have bloom or automatic exposure; with HEARTH_FEATURE_FINAL_PASS */
+    /* frames may use a light method that stores surfaces; with HEARTH_FEATURE_DEFERRED */
+    HEARTH_TARGETS_DEFERRED = 16,
+    /* the same, but only HEARTH_LIGHTS_TILE_DEFERRED without bloom, automatic exposure and another output
+     * size: surfaces need no memory on tile-based GPUs */
+    HEARTH_TARGETS_TILE_DEFERRED = 32
 };
 
 /* What frames with the targets may ask for (1.8): images that never leave a tile-based GPU's tile need no
@@ -662,7 +670,13 @@ enum
     /* the next two split a frame behind its visibility buffer: targets with HEARTH_TARGETS_SPLIT */
     HEARTH_LIGHTS_TILED_FORWARD = 2,     /* those that reach its tile, between the depths that it shows */
     HEARTH_LIGHTS_CLUSTERED_FORWARD = 3, /* as PRACTICAL; only cells that a pixel shows have lists */
-    HEARTH_LIGHTS_FORWARD = 4            /* those that reach the box of its cluster */
+    HEARTH_LIGHTS_FORWARD = 4,           /* those that reach the box of its cluster */
+    /* Those that store surfaces, by a renderer with HEARTH_FEATURE_DEFERRED: what they round differs by 2 of
+     * 255 at most. TILED and CLUSTERED split a frame as above. */
+    HEARTH_LIGHTS_DEFERRED = 5,           /* light by light, in the pixels of its volume */
+    HEARTH_LIGHTS_TILED_DEFERRED = 6,     /* lists as TILED_FORWARD */
+    HEARTH_LIGHTS_CLUSTERED_DEFERRED = 7, /* lists as CLUSTERED_FORWARD */
+    HEARTH_LIGHTS_TILE_DEFERRED = 8       /* as DEFERRED, in one render pass */
 };
 
 /* Processor that lists the lights of cells, of PRACTICAL and ALL (1.8). The lists are the same. */

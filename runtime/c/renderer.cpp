@@ -15,7 +15,7 @@ namespace
 
 constexpr uint32_t kFeatures = HEARTH_FEATURE_SAMPLER_ANISOTROPY | HEARTH_FEATURE_OVERDRAW |
                                HEARTH_FEATURE_DEBUG_LABELS | HEARTH_FEATURE_GRADING |
-                               HEARTH_FEATURE_FINAL_PASS;
+                               HEARTH_FEATURE_FINAL_PASS | HEARTH_FEATURE_DEFERRED;
 
 /// Sizes of the description in versions 1.0, and 1.1 to 1.7.
 constexpr size_t kOldDescriptionBytes[] = {offsetof(hearth_renderer_description, memory),
@@ -125,7 +125,8 @@ Result<std::unique_ptr<hearth_renderer>> create(const hearth_renderer_descriptio
         gpu::Renderer::create(toDevice(description, made->memory),
                               {.way = toFrameWay(description.frame_way),
                                .materials = static_cast<gpu::MaterialTest>(description.materials),
-                               .post = toPostSupport(description.features)}));
+                               .post = toPostSupport(description.features),
+                               .deferred = (description.features & HEARTH_FEATURE_DEFERRED) != 0}));
     made->shows_overdraw = (description.features & HEARTH_FEATURE_OVERDRAW) != 0;
     if (made->shows_overdraw)
         HEARTH_TRY(made->renderer->prepareOverdraw());

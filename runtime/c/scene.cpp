@@ -132,6 +132,8 @@ hearth_result hearth_scene_prepare_lights(hearth_scene* scene, uint32_t method)
                 {
                     if (method >= gpu::kLightMethodCount)
                         return usage("method is unknown to this version");
+                    if (!scene->renderer->renderer->supports(static_cast<gpu::LightMethod>(method)))
+                        return usage("the method needs a renderer with HEARTH_FEATURE_DEFERRED");
                     HEARTH_TRY(scene->renderer->renderer->prepareLightMethod(
                         *scene->scene, static_cast<gpu::LightMethod>(method)));
                     scene->prepared_lights |= 1u << method;

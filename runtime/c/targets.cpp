@@ -30,6 +30,14 @@ hearth_image makeImage(const gpu::Image& image, const gpu::ImageUse& drawn, cons
             .after = toC(shaded.after)};
 }
 
+gpu::LightPath toLightPath(uint32_t flags)
+{
+    if ((flags & HEARTH_TARGETS_DEFERRED) != 0)
+        return gpu::LightPath::surfaces;
+    return (flags & HEARTH_TARGETS_TILE_DEFERRED) != 0 ? gpu::LightPath::surfaces_on_tile
+                                                       : gpu::LightPath::materials;
+}
+
 Status check(const hearth_renderer& renderer, const hearth_targets_description& description)
 {
     if (description.width == 0 || description.height == 0)
@@ -37,7 +45,8 @@ Status check(const hearth_renderer& renderer, const hearth_targets_description& 
     if (description.occlusion > HEARTH_OCCLUSION_OFF)
         return usage("occlusion has a value that this version does not know");
     constexpr uint32_t kFlags = HEARTH_TARGETS_KEEP_VISIBILITY | HEARTH_TARGETS_SPLIT |
-                                HEARTH_TARGETS_COUNT_MISSING | HEARTH_TARGETS_BLOOM;
+                                HEARTH_TARGETS_COUNT_MISSING | HEARTH_TARGETS_BLOOM |
+                                HEARTH_TARGETS_DEFERRED | HEARTH_TARGETS_TILE_DEFERRED;
     if ((description.flags & ~kFlags) != 0 || description.reserved != 0)
         return usage("flags has bits that this version does not know, or reserved is not 0");
     if ((description.output_width == 0) != (description.output_height == 0))
@@ -47,6 +56,10 @@ Status check(const hearth_renderer& renderer, const hearth_targets_description& 
     if (needs_final_pass && !renderer.renderer->hasFinalPasses())
         return usage("HEARTH_TARGETS_BLOOM and an output size need a renderer with "
                      "HEARTH_FEATURE_FINAL_PASS");
+    if (toLightPath(description.flags) != gpu::LightPath::materials &&
+        !renderer.renderer->supports(gpu::LightMethod::deferred))
+        return usage("HEARTH_TARGETS_DEFERRED and HEARTH_TARGETS_TILE_DEFERRED need a renderer with "
+                     "HEARTH_FEATURE_DEFERRED");
     if (description.scene != nullptr && description.scene->renderer != &renderer)
         return usage("the scene is of another renderer");
     return success();
@@ -58,7 +71,8 @@ gpu::TargetOptions toOptions(const hearth_targets_description& description)
                                .keeps_visibility = (description.flags & HEARTH_TARGETS_KEEP_VISIBILITY) != 0,
                                .counts_missing = (description.flags & HEARTH_TARGETS_COUNT_MISSING) != 0,
                                .may_bloom = (description.flags & HEARTH_TARGETS_BLOOM) != 0,
-                               .output = {description.output_width, description.output_height}};
+                               .output = {description.output_width, description.output_height},
+                               .light_path = toLightPath(description.flags)};
     if (description.scene == nullptr)
         return options;
     const gpu::Scene& scene = *description.scene->scene;

@@ -34,6 +34,9 @@ constexpr VkFormatFeatureFlags kDrawnAndFiltered = VK_FORMAT_FEATURE_SAMPLED_IMA
 constexpr RequiredFormat kHalfFormat = {VK_FORMAT_R16G16B16A16_SFLOAT,
                                         kDrawnAndFiltered | VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT,
                                         "R16G16B16A16_SFLOAT", "linear colours of frames with a final pass"};
+constexpr RequiredFormat kSurfaceFormat = {
+    kSurfacesFormat, VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT | VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT,
+    "R32G32B32A32_UINT", "surfaces that light methods store (--lights deferred and the like)"};
 constexpr RequiredFormat kStopsFormat = {
     kExposureFormat, VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT | VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT,
     "R32_SFLOAT", "automatic exposure"};
@@ -60,7 +63,7 @@ uint32_t firstPhase(const FrameInput& input)
 /// Areas for which the device lists the lights of a frame; none: the CPU lists them at once.
 std::optional<LightAreas> listedAreas(const Scene& scene, const ShadingSettings& shading)
 {
-    const LightAreas areas = lightMethodFacts(shading.light_method).areas;
+    const LightAreas areas = lightMethodFacts(lightMethod(shading)).areas;
     return scene.lights->listsOnDevice(shading.light_lister, areas) ? std::optional(areas) : std::nullopt;
 }
 
@@ -68,6 +71,7 @@ FrameConfiguration configure(const Scene& scene, const FrameTargets& targets, co
                              bool in_parts)
 {
     const std::optional<LightAreas> areas = listedAreas(scene, input.shading);
+    const LightPath path = neededLightPath(targets, input.shading);
     return {.occlusion = occlusionCulling(input),
             .material_tiles = shadesTiles(scene, input.shading.area),
             .gathers_light = usesGi(scene, input.shading),
@@ -80,12 +84,14 @@ FrameConfiguration configure(const Scene& scene, const FrameTargets& targets, co
             .lists_lights = areas.has_value(),
             .lists_slots = areas == LightAreas::slots,
             // by the method alone: the frame may be the one that adds the first light
-            .lists_visible = needPixels(lightMethodFacts(input.shading.light_method).areas),
+            .lists_visible = needPixels(lightMethodFacts(lightMethod(input.shading)).areas),
             .lights_bricks = scene.bricks != nullptr,
             .has_final_pass = alwaysHasFinalPass(targets.options(), targets.extent()) ||
-                              usesBloom(input.shading) || adaptsExposure(input.shading),
+                              usesBloom(input.shading) || adaptsExposure(input.shading) ||
+                              path != LightPath::materials,
             .adapts_exposure = adaptsExposure(input.shading),
-            .blooms = usesBloom(input.shading)};
+            .blooms = usesBloom(input.shading),
+            .light_path = path};
 }
 
 shared::FrameView scaledView(const Scene& scene, const shared::FrameView& view)
@@ -109,34 +115,36 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const DeviceDescription& desc
     std::unique_ptr<Renderer> renderer(new Renderer);
     Renderer& r = *renderer;
     std::vector<RequiredFormat> formats;
-    if (options.materials == MaterialTest::id)
+    const MaterialTest materials = options.deferred ? MaterialTest::id : options.materials;
+    r.post_support_ = options.deferred ? PostSupport::half : options.post;
+    if (materials == MaterialTest::id)
         formats.push_back(kStencilFormat);
-    const bool has_final_passes = options.post >= PostSupport::packed;
+    if (options.deferred)
+        formats.push_back(kSurfaceFormat);
+    const bool has_final_passes = r.post_support_ >= PostSupport::packed;
     if (has_final_passes)
         formats.insert(formats.end(), {kHalfFormat, kStopsFormat});
     HEARTH_ASSIGN_OR_RETURN(r.device_, makeDevice(description, formats));
     const FrameWay way = options.way.value_or(chooseFrameWay(r.device_.identity));
     HEARTH_ASSIGN_OR_RETURN(r.layouts_, DrawLayouts::create(r.device_, shadingDescriptors(way)));
-    r.post_support_ = options.post;
     std::optional<VkFormat> radiance_format;
     if (has_final_passes)
-        radiance_format = options.post == PostSupport::packed && r.device_.draws_packed_floats
+        radiance_format = r.post_support_ == PostSupport::packed && r.device_.draws_packed_floats
                               ? kPackedRadiance
                               : kHalfFormat.format;
-    HEARTH_ASSIGN_OR_RETURN(r.passes_,
-                            FramePasses::create(r.device_, way, options.materials, radiance_format));
+    HEARTH_ASSIGN_OR_RETURN(
+        r.passes_, FramePasses::create(r.device_, way, materials, radiance_format, options.deferred));
     HEARTH_ASSIGN_OR_RETURN(r.light_lists_, LightListsPass::create(r.device_, r.layouts_));
     HEARTH_ASSIGN_OR_RETURN(r.cull_, CullPass::create(r.device_, r.layouts_));
     HEARTH_ASSIGN_OR_RETURN(r.copy_words_, WordCopyPass::create(r.device_));
     HEARTH_ASSIGN_OR_RETURN(r.page_requests_, PageRequestPass::create(r.device_));
     HEARTH_ASSIGN_OR_RETURN(r.pyramid_, PyramidPass::create(r.device_, r.layouts_));
     HEARTH_ASSIGN_OR_RETURN(r.material_tiles_, MaterialTilesPass::create(r.device_, r.layouts_));
-    for (const bool has_final_pass : {false, true})
-        if (!has_final_pass || r.passes_.hasFinalPasses())
-        {
-            HEARTH_ASSIGN_OR_RETURN(DrawPasses draws, r.createDrawPasses(has_final_pass));
-            r.draws_.push_back(std::move(draws));
-        }
+    for (size_t i = 0; i < kShadedOutputCount && r.passes_.has(static_cast<ShadedOutput>(i)); ++i)
+    {
+        HEARTH_ASSIGN_OR_RETURN(DrawPasses draws, r.createDrawPasses(static_cast<ShadedOutput>(i)));
+        r.draws_.push_back(std::move(draws));
+    }
     if (r.passes_.hasFinalPasses())
     {
         HEARTH_ASSIGN_OR_RETURN(r.post_, PostPass::create(r.device_, r.layouts_, r.passes_));
@@ -144,29 +152,33 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const DeviceDescription& desc
     return renderer;
 }
 
-Result<Renderer::DrawPasses> Renderer::createDrawPasses(bool has_final_pass) const
+Result<Renderer::DrawPasses> Renderer::createDrawPasses(ShadedOutput output) const
 {
     DrawPasses draws;
     HEARTH_ASSIGN_OR_RETURN(
         draws.visibility,
-        BinPass::createVisibility(device_, layouts_, passes_.visibilityPlace(has_final_pass)));
+        BinPass::createVisibility(device_, layouts_, passes_.place(output, FrameStep::visibility)));
     HEARTH_ASSIGN_OR_RETURN(draws.material_marks,
-                            MaterialMarksPass::create(device_, layouts_, passes_, has_final_pass));
-    HEARTH_ASSIGN_OR_RETURN(draws.shading, ShadingPass::create(device_, layouts_, passes_, has_final_pass,
-                                                               storedColor(has_final_pass)));
+                            MaterialMarksPass::create(device_, layouts_, passes_, output));
+    HEARTH_ASSIGN_OR_RETURN(draws.shading,
+                            ShadingPass::create(device_, layouts_, passes_, output, storedColor(output)));
+    if (storesSurfaces(output))
+    {
+        HEARTH_ASSIGN_OR_RETURN(draws.add_lights, AddLightsPass::create(device_, layouts_, passes_, output));
+    }
     return draws;
 }
 
-uint32_t Renderer::storedColor(bool has_final_pass) const
+uint32_t Renderer::storedColor(ShadedOutput output) const
 {
-    if (!has_final_pass)
+    if (output == ShadedOutput::color)
         return post_support_ == PostSupport::none ? shared::kStoredDisplay : shared::kStoredGraded;
     return passes_.radianceFormat() == kPackedRadiance ? shared::kStoredPacked : shared::kStoredHalf;
 }
 
 const Renderer::DrawPasses& Renderer::drawPasses(const PassRecorder& passes) const
 {
-    return draws_[passes.has(FrameStep::final_pass) ? 1 : 0];
+    return draws_[static_cast<size_t>(passes.shadedOutput())];
 }
 
 Result<FrameTargets> Renderer::createTargets(VkExtent2D extent, const TargetOptions& options) const
@@ -276,28 +288,46 @@ Status Renderer::createShadows(const formats::PackView& pack, const ShadowOption
 
 Status Renderer::prepareLightMethod(Scene& scene, LightMethod method)
 {
-    HEARTH_TRY(light_lists_.prepare(device_, layouts_, scene, lightMethodFacts(method).areas));
+    HEARTH_ASSERT(supports(method));
+    const LightMethodFacts& facts = lightMethodFacts(method);
+    const bool lights_surfaces = facts.path != LightPath::materials;
+    HEARTH_TRY(light_lists_.prepare(device_, layouts_, scene, facts.areas));
     for (SceneMaterial& material : scene.materials)
     {
-        material.variant.light_list = lightMethodFacts(method).light_list;
+        // materials with layers are lit where they are shaded, whatever the method
+        material.variant.light_list =
+            facts.light_list == shared::kLightListVolumes ? shared::kLightListCells : facts.light_list;
         for (size_t i = 0; i < draws_.size(); ++i)
         {
+            if (storesSurfaces(static_cast<ShadedOutput>(i)) != lights_surfaces)
+                continue;
             HEARTH_ASSIGN_OR_RETURN(material.pipelines[static_cast<size_t>(method)][i],
                                     draws_[i].shading.prepare(device_, layouts_, material.variant));
         }
     }
+    for (DrawPasses& draws : draws_)
+        if (lights_surfaces && draws.add_lights)
+            HEARTH_TRY(draws.add_lights->prepare(device_, layouts_, method, scene));
     return success();
+}
+
+bool Renderer::supports(LightMethod method) const
+{
+    return lightMethodFacts(method).path == LightPath::materials || passes_.has(ShadedOutput::surfaces);
 }
 
 Status Renderer::prepareOverdraw()
 {
-    for (size_t i = 0; i < draws_.size(); ++i)
+    for (const ShadedOutput output : {ShadedOutput::color, ShadedOutput::radiance})
     {
-        std::optional<BinPass>& overdraw = draws_[i].overdraw;
+        if (!passes_.has(output))
+            continue;
+        std::optional<BinPass>& overdraw = draws_[static_cast<size_t>(output)].overdraw;
         if (!overdraw)
         {
-            HEARTH_ASSIGN_OR_RETURN(overdraw,
-                                    BinPass::createOverdraw(device_, layouts_, passes_.shadingPlace(i == 1)));
+            HEARTH_ASSIGN_OR_RETURN(
+                overdraw,
+                BinPass::createOverdraw(device_, layouts_, passes_.place(output, FrameStep::shading)));
         }
         if (skinning_)
             HEARTH_TRY(overdraw->prepareDeformed(device_));
@@ -410,7 +440,7 @@ void Renderer::recordLightLists(VkCommandBuffer commands, const Scene& scene, co
                                 const ShadingSettings& shading, PassRecorder& passes) const
 {
     scene.lights->beginFrame(scene.tables->lighting, scene.tables->frame, view, shading.light_lister,
-                             lightMethodFacts(shading.light_method).areas);
+                             lightMethodFacts(lightMethod(shading)).areas);
     const std::optional<LightAreas> areas = listedAreas(scene, shading);
     if (!areas)
         return;
@@ -632,7 +662,14 @@ void Renderer::recordShaded(VkCommandBuffer commands, const Scene& scene, FrameT
         else
             draws.shading.record(device_, commands, layouts_, scene, targets, input.shading);
     }
-    passes.end();
+    if (passes.has(FrameStep::add_lights))
+    {
+        const DebugLabel label(device_, commands, "add lights");
+        passes.begin(FrameStep::add_lights);
+        draws.add_lights->record(device_, commands, layouts_, scene, targets, input.shading);
+    }
+    if (!passes.sharesPass(FrameStep::shading, FrameStep::final_pass))
+        passes.end();
     if (targets.hasPost())
         recordFinal(commands, targets, input.shading, passes);
     targets.setDepthView(passes.has(FrameStep::last_pyramid) ? shared::makeOcclusionView(input.view)
@@ -674,7 +711,8 @@ void Renderer::recordFinal(VkCommandBuffer commands, FrameTargets& targets, cons
         const DebugLabel label(device_, commands, "final pass");
         passes.begin(FrameStep::final_pass);
         post_->recordFinal(device_, commands, post, shading.post, targets.outputExtent(),
-                           shading.debug_view != shared::kViewFinal);
+                           shading.debug_view != shared::kViewFinal,
+                           passes.sharesPass(FrameStep::shading, FrameStep::final_pass));
         passes.end();
     }
 }

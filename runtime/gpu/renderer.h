@@ -5,6 +5,7 @@
 #pragma once
 
 #include "runtime/gpu/frame/frame_parts.h"
+#include "runtime/gpu/passes/add_lights_pass.h"
 #include "runtime/gpu/passes/bin_pass.h"
 #include "runtime/gpu/passes/brick_light_pass.h"
 #include "runtime/gpu/passes/cull_pass.h"
@@ -87,6 +88,9 @@ struct RendererOptions
     std::optional<FrameWay> way{}; ///< none: chooseFrameWay
     MaterialTest materials = MaterialTest::depth;
     PostSupport post = PostSupport::none;
+    /// Light methods that store surfaces as well. Their frames have MaterialTest::id and PostSupport::half,
+    /// which the renderer has then.
+    bool deferred = false;
 };
 
 class Renderer
@@ -106,6 +110,8 @@ public:
     FrameWay way() const { return passes_.way(); }
     bool hasFinalPasses() const { return passes_.hasFinalPasses(); }
     PostSupport postSupport() const { return post_support_; }
+    /// True if frames may have a light method.
+    bool supports(LightMethod method) const;
 
     /// Return the passes of a frame as `record` records them, or the parts of it. Shadow maps are those that
     /// are stale by the view and its moves: what the frame changes else does not count.
@@ -117,8 +123,8 @@ public:
     Result<std::unique_ptr<Scene>> upload(const formats::PackView& pack, VkCommandBuffer commands,
                                           const SceneOptions& options = {});
 
-    /// Create the pipelines of a scene's materials for a light method. Call before a frame that uses it;
-    /// upload does so for LightMethod::practical. errors: device_failed.
+    /// Create the pipelines of a scene's materials for a light method that the renderer supports. Call before
+    /// a frame that uses it; upload does so for LightMethod::practical. errors: device_failed.
     Status prepareLightMethod(Scene& scene, LightMethod method);
 
     /// Create the pipelines of the overdraw view. Call before a frame that shows it. errors: device_failed.
@@ -166,10 +172,11 @@ private:
         std::optional<BinPass> overdraw;
         MaterialMarksPass material_marks;
         ShadingPass shading;
+        std::optional<AddLightsPass> add_lights; ///< of outputs that store surfaces
     };
-    Result<DrawPasses> createDrawPasses(bool has_final_pass) const;
+    Result<DrawPasses> createDrawPasses(ShadedOutput output) const;
     /// Value of shared::kConstantStored.
-    uint32_t storedColor(bool has_final_pass) const;
+    uint32_t storedColor(ShadedOutput output) const;
     const DrawPasses& drawPasses(const PassRecorder& passes) const;
 
     Status prepareDeformed();
@@ -220,7 +227,7 @@ private:
     std::optional<GatherPass> gather_;          ///< set once a scene has bricks
     std::optional<SkinningPass> skinning_;      ///< set once a scene has deformed meshes
     MaterialTilesPass material_tiles_;
-    std::vector<DrawPasses> draws_; ///< [1] of frames with a final pass
+    std::vector<DrawPasses> draws_; ///< [ShadedOutput]
     std::optional<PostPass> post_;  ///< with final passes
 };
 

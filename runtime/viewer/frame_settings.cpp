@@ -112,13 +112,21 @@ gpu::PostSupport postSupport(const FrameSettings& settings)
 
 } // namespace
 
+gpu::LightPath lightPath(const FrameSettings& settings)
+{
+    const gpu::LightPath path = gpu::lightMethodFacts(settings.light_method).path;
+    const bool leaves_tile = mayBloom(settings) || settings.keeps_radiance || settings.render_size;
+    return path == gpu::LightPath::surfaces_on_tile && leaves_tile ? gpu::LightPath::surfaces : path;
+}
+
 gpu::RendererOptions rendererOptions(const FrameSettings& settings)
 {
     // the pyramid for the next frame is made of the depth
     return {.way = settings.way,
             .materials = settings.material_test.value_or(
                 settings.occludes_by_last_frame ? gpu::MaterialTest::id : gpu::MaterialTest::depth),
-            .post = postSupport(settings)};
+            .post = postSupport(settings),
+            .deferred = gpu::lightMethodFacts(settings.light_method).path != gpu::LightPath::materials};
 }
 
 gpu::TargetOptions targetOptions(const FrameSettings& settings, const gpu::Scene& scene, VkExtent2D output,
@@ -135,7 +143,8 @@ gpu::TargetOptions targetOptions(const FrameSettings& settings, const gpu::Scene
             .counts_missing = settings.occludes_by_last_frame,
             .may_bloom = mayBloom(settings),
             .output = output,
-            .keeps_radiance = settings.keeps_radiance};
+            .keeps_radiance = settings.keeps_radiance,
+            .light_path = lightPath(settings)};
 }
 
 gpu::FrameInput makeFrame(const FrameSettings& settings, const shared::Camera& camera,

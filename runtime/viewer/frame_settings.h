@@ -55,6 +55,9 @@ std::span<const Named<uint32_t>> specularOcclusionNames();
 /// Return the culling tests, one per flag.
 std::span<const Named<uint32_t>> cullTestNames();
 
+/// Return what the light method needs of targets.
+gpu::LightPath lightPath(const FrameSettings& settings);
+
 /// Return the options of a renderer for the settings. Materials are found by depth, unless something that
 /// follows needs the depth.
 gpu::RendererOptions rendererOptions(const FrameSettings& settings);

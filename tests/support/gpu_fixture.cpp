@@ -81,7 +81,15 @@ void GpuTest::SetUpTestSuite()
         return;
     }
     host_ = std::move(*host);
-    auto renderer = gpu::Renderer::create(host_->description(), testRendererOptions());
+    replaceRenderer(testRendererOptions());
+}
+
+void GpuTest::replaceRenderer(const gpu::RendererOptions& options)
+{
+    renderer_.reset();
+    if (host_ == nullptr)
+        return;
+    auto renderer = gpu::Renderer::create(host_->description(), options);
     ASSERT_TRUE(renderer.ok()) << formatMessage(renderer.error());
     renderer_ = std::move(*renderer);
 }
@@ -127,7 +135,11 @@ std::unique_ptr<gpu::Scene> GpuTest::upload(const formats::PackView& pack, const
 
 gpu::FrameTargets GpuTest::makeTargets(uint32_t width, uint32_t height)
 {
-    auto targets = renderer().createTargets({width, height}, {.keeps_visibility = true});
+    auto targets = renderer().createTargets({width, height},
+                                            {.keeps_visibility = true,
+                                             .light_path = renderer().supports(gpu::LightMethod::deferred)
+                                                               ? gpu::LightPath::surfaces
+                                                               : gpu::LightPath::materials});
     HEARTH_ASSERT(targets.ok());
     return std::move(*targets);
 }

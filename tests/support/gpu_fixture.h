@@ -70,6 +70,9 @@ protected:
     static viewer::VulkanHost& host() { return *host_; }
     static gpu::Renderer& renderer() { return *renderer_; }
 
+    /// Use a renderer with other options from now on, before any scene is uploaded.
+    static void replaceRenderer(const gpu::RendererOptions& options);
+
     /// Draw on another device from now on, which gets the one before: exchange them back at the end.
     static void exchangeDevice(std::unique_ptr<viewer::VulkanHost>& host,
                                std::unique_ptr<gpu::Renderer>& renderer)

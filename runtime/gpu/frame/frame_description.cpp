@@ -18,6 +18,7 @@ constexpr ResourceFacts kResources[] = {
     {"visibility", ResourceKind::attachment, 4},
     {"depth", ResourceKind::attachment, 4},
     {"color", ResourceKind::attachment, 4},
+    {"surfaces", ResourceKind::attachment, 16},
     {"pyramid", ResourceKind::image, 4.0f / 3},
     {"gathered light", ResourceKind::image, 0.5f},
     {"gather points", ResourceKind::buffer, 1.75f},
@@ -49,8 +50,8 @@ constexpr const char* kSteps[] = {
     "update",         "list lights",       "light bricks", "shadow cull",  "shadow map",
     "shadow copy",    "moving shadow map", "cull",         "last pyramid", "early visibility",
     "early pyramid",  "late cull",         "slot lights",  "visibility",   "pyramid",
-    "visible lights", "material tiles",    "gather light", "shading",      "exposure",
-    "bloom down",     "bloom up",          "final",
+    "visible lights", "material tiles",    "gather light", "shading",      "add lights",
+    "exposure",       "bloom down",        "bloom up",     "final",
 };
 static_assert(std::size(kSteps) == static_cast<size_t>(FrameStep::count));
 
@@ -81,6 +82,11 @@ constexpr AccessFacts accessFacts(Access access)
     case Access::input:
         return {VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_INPUT_ATTACHMENT_READ_BIT,
                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, false};
+    case Access::depth_input:
+        return {kDepthStages | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
+                VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT |
+                    VK_ACCESS_INPUT_ATTACHMENT_READ_BIT | VK_ACCESS_SHADER_READ_BIT,
+                VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_STENCIL_ATTACHMENT_OPTIMAL, true};
     case Access::sampled:
         return {VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT,
                 VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, false};

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "formats/gpu_shared/post.h"
+#include "runtime/gpu/lights/light_method.h"
 #include "runtime/gpu/vulkan/device_table.h"
 
 #include <cstdint>
@@ -22,6 +23,7 @@ enum class FrameResource : uint8_t
     visibility,     ///< visible triangle of each pixel; attachment
     depth,          ///< attachment
     color,          ///< the shaded frame; attachment
+    surfaces,       ///< what lights need of the surface of a pixel; attachment
     pyramid,        ///< depth pyramid of occlusion culling
     gathered_light, ///< indirect light of tiles of 8 x 8 pixels, as shading reads it
     gather_points,  ///< buffers of the same tiles
@@ -114,6 +116,7 @@ enum class FrameStep : uint8_t
     material_tiles,
     gather,
     shading,
+    add_lights, ///< add light to surfaces that shading has stored
     exposure,   ///< automatic exposure, by the last frame's light
     bloom_down, ///< a level of bloom
     bloom_up,   ///< a sum of levels
@@ -129,6 +132,7 @@ enum class Access : uint8_t
     depth_write, ///< tested and written
     depth_keep,  ///< bound, neither tested nor written: a tiler merges subpasses only if they share the depth
     input,       ///< input attachment: the pixel's own value
+    depth_input, ///< the same of a depth that is tested as well, beside a stencil that is written
     sampled,     ///< by a compute shader
     compute_read,  ///< as storage
     compute_write, ///< as storage
@@ -344,6 +348,9 @@ struct FrameConfiguration
     bool adapts_exposure = false; ///< automatic exposure
     bool blooms = false;
     VkFormat radiance_format = kPackedRadiance;
+    /// Place of lights. Others than materials have a final pass and MaterialTest::id; on the tile there is
+    /// neither bloom nor automatic exposure.
+    LightPath light_path = LightPath::materials;
 };
 
 struct FrameDescription

@@ -212,8 +212,9 @@ private:
             for (const ResourceUse& use : subpass.attachments)
             {
                 colors += use.access == Access::color_write ? 1 : 0;
-                inputs += use.access == Access::input ? 1 : 0;
-                if (use.access == Access::depth_write || use.access == Access::depth_keep)
+                inputs += use.access == Access::input || use.access == Access::depth_input ? 1 : 0;
+                if (use.access == Access::depth_write || use.access == Access::depth_keep ||
+                    use.access == Access::depth_input)
                 {
                     depths.insert(use.resource);
                     ++with_depth;
@@ -287,7 +288,8 @@ private:
     void checkFrame()
     {
         pass_ = nullptr;
-        for (const Resource resource : {Resource::visibility, Resource::depth, Resource::color})
+        for (const Resource resource :
+             {Resource::visibility, Resource::depth, Resource::color, Resource::surfaces, Resource::radiance})
         {
             bool leaves_tile = false;
             for (const Pass& pass : frame_.passes)

@@ -2,7 +2,6 @@
 #include "runtime/gpu/frame/frame_passes.h"
 
 #include "formats/gpu_shared/bindings.h"
-#include "runtime/gpu/frame/frame_plan.h"
 
 #include <algorithm>
 
@@ -24,6 +23,8 @@ VkFormat attachmentFormat(const Pass& pass, FrameResource resource, MaterialTest
         return pass.map_format;
     case FrameResource::color:
         return kColorFormat;
+    case FrameResource::surfaces:
+        return kSurfacesFormat;
     case FrameResource::exposure:
         return kExposureFormat;
     default:
@@ -96,6 +97,8 @@ SubpassReferences makeReferences(const Pass& pass, const Subpass& subpass)
             references.inputs.push_back(reference);
         else
             references.depth = reference;
+        if (use.access == Access::depth_input)
+            references.inputs.push_back(reference);
     }
     return references;
 }
@@ -149,7 +152,7 @@ std::vector<VkSubpassDependency> makeDependencies(const Pass& pass)
 
 Result<UniqueRenderPass> createRenderPass(const Device& device, const Pass& pass, MaterialTest materials)
 {
-    static_assert(shared::kInputVisibility == 0);
+    static_assert(shared::kInputVisibility == 0 && shared::kInputDepth == 0 && shared::kInputSurfaces == 1);
     const auto attachments = makeAttachments(pass, materials);
     std::vector<SubpassReferences> references(pass.subpasses.size());
     std::vector<VkSubpassDescription> subpasses(pass.subpasses.size());
@@ -201,25 +204,37 @@ Result<PlannedPass> FramePasses::findOrCreate(const Device& device, const Pass& 
         passes_.emplace(std::move(key), std::move(created));
         return PlannedPass{handle, 0};
     }
+    std::vector<std::vector<Access>> accesses;
+    for (const Subpass& subpass : pass.subpasses)
+    {
+        accesses.emplace_back();
+        for (const ResourceUse& use : subpass.attachments)
+            accesses.back().push_back(use.access);
+    }
     const auto family = std::find_if(families_.begin(), families_.end(),
-                                     [&](const PassFamily& f) { return f.attachments == attachments; });
+                                     [&](const PassFamily& f)
+                                     { return f.attachments == attachments && f.accesses == accesses; });
     created.family = static_cast<uint32_t>(family - families_.begin());
     if (family == families_.end())
-        families_.push_back({std::move(attachments), handle});
+        families_.push_back({std::move(attachments), std::move(accesses), handle});
     const PlannedPass planned{handle, created.family};
     passes_.emplace(std::move(key), std::move(created));
     return planned;
 }
 
 Result<FramePasses> FramePasses::create(const Device& device, FrameWay way, MaterialTest materials,
-                                        std::optional<VkFormat> radiance_format)
+                                        std::optional<VkFormat> radiance_format, bool deferred)
 {
     FramePasses passes;
     passes.way_ = way;
     passes.materials_ = materials;
+    HEARTH_ASSERT(!deferred || radiance_format.has_value());
     passes.radiance_format_ = radiance_format;
+    passes.features_ = deferred          ? FrameFeatures::deferred
+                       : radiance_format ? FrameFeatures::finished
+                                         : FrameFeatures::shaded;
     std::vector<FrameConfiguration> configurations;
-    for (FrameConfiguration configuration : allConfigurations(way, materials, passes.hasFinalPasses()))
+    for (FrameConfiguration configuration : allConfigurations(way, materials, passes.features_))
     {
         addLightLists(configuration);
         configuration.lights_bricks = true;
@@ -261,6 +276,23 @@ size_t FramePasses::planNumber(const FrameConfiguration& configuration)
 const FramePlan& FramePasses::plan(const FrameConfiguration& configuration) const
 {
     return plans_[planNumber(configuration)];
+}
+
+bool FramePasses::has(ShadedOutput output) const
+{
+    return output == ShadedOutput::color || (output == ShadedOutput::radiance && hasFinalPasses()) ||
+           features_ == FrameFeatures::deferred;
+}
+
+DrawPlace FramePasses::place(ShadedOutput output, FrameStep step) const
+{
+    HEARTH_ASSERT(has(output));
+    return findPlace(
+        plan({.has_final_pass = output != ShadedOutput::color,
+              .light_path = output == ShadedOutput::surfaces           ? LightPath::surfaces
+                            : output == ShadedOutput::surfaces_on_tile ? LightPath::surfaces_on_tile
+                                                                       : LightPath::materials}),
+        step);
 }
 
 VkRenderPass FramePasses::shadowMapPass(VkFormat format) const

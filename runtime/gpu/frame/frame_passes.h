@@ -5,7 +5,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "runtime/gpu/frame/frame_description.h"
+#include "runtime/gpu/frame/frame_plan.h"
 #include "runtime/gpu/vulkan/device.h"
 
 #include <map>
@@ -15,6 +15,8 @@ namespace hearth::gpu
 
 inline constexpr VkFormat kVisibilityFormat = VK_FORMAT_R32_UINT;
 inline constexpr VkFormat kColorFormat = VK_FORMAT_R8G8B8A8_SRGB;
+/// SurfaceWords of formats/gpu_shared/surface_words.h.
+inline constexpr VkFormat kSurfacesFormat = VK_FORMAT_R32G32B32A32_UINT;
 /// Stops of automatic exposure.
 inline constexpr VkFormat kExposureFormat = VK_FORMAT_R32_SFLOAT;
 /// Depth and, with MaterialTest::id, a stencil of the low bits of material numbers.
@@ -40,7 +42,8 @@ struct FramePlan
 /// Compatible render passes.
 struct PassFamily
 {
-    std::vector<FrameResource> attachments; ///< of framebuffers, in this order
+    std::vector<FrameResource> attachments;    ///< of framebuffers, in this order
+    std::vector<std::vector<Access>> accesses; ///< [subpass], in the order of its attachments
     VkRenderPass any_pass = VK_NULL_HANDLE;
 };
 
@@ -57,30 +60,25 @@ class FramePasses
 {
 public:
     /// radiance_format  as FrameConfiguration, of frames with a final pass; none: there are no such frames
+    /// deferred         there are frames that light stored surfaces; they have a final pass
     /// errors: device_failed.
     static Result<FramePasses> create(const Device& device, FrameWay way, MaterialTest materials,
-                                      std::optional<VkFormat> radiance_format = {});
+                                      std::optional<VkFormat> radiance_format = {}, bool deferred = false);
 
     FrameWay way() const { return way_; }
     MaterialTest materials() const { return materials_; }
-    bool hasFinalPasses() const { return radiance_format_.has_value(); }
+    FrameFeatures features() const { return features_; }
+    bool hasFinalPasses() const { return features_ >= FrameFeatures::finished; }
+    /// True if the output is one of the frames' that the passes draw.
+    bool has(ShadedOutput output) const;
     VkFormat radianceFormat() const { return radiance_format_.value_or(kPackedRadiance); }
     /// Plan of a configuration; its way, its test of materials, its bricks and its maps do not matter, nor do
     /// lists of lights ahead of the visibility buffer.
     const FramePlan& plan(const FrameConfiguration& configuration) const;
     /// Families of the passes of the frame's size.
     std::span<const PassFamily> families() const { return families_; }
-    /// Return the place of pipelines that draw into the visibility buffer of frames with a final pass, or of
-    /// those without.
-    DrawPlace visibilityPlace(bool has_final_pass = false) const
-    {
-        return findPlace(plan({.has_final_pass = has_final_pass}), FrameStep::visibility);
-    }
-    /// Return the place of pipelines that draw into the shaded frame.
-    DrawPlace shadingPlace(bool has_final_pass = false) const
-    {
-        return findPlace(plan({.has_final_pass = has_final_pass}), FrameStep::shading);
-    }
+    /// Return the place of pipelines of a step in frames whose shading has this output.
+    DrawPlace place(ShadedOutput output, FrameStep step) const;
     /// Return the place of pipelines of a step behind shading.
     DrawPlace filterPlace(FrameStep step) const
     {
@@ -100,6 +98,7 @@ private:
 
     FrameWay way_ = FrameWay::merged;
     MaterialTest materials_ = MaterialTest::depth;
+    FrameFeatures features_ = FrameFeatures::shaded;
     std::optional<VkFormat> radiance_format_;
     std::vector<FramePlan> plans_; ///< [planNumber]
     std::vector<PassFamily> families_;

@@ -93,6 +93,21 @@ Step pyramidStep(FrameStep step)
                      {Resource::pyramid, Access::compute_write, Content::overwrite}}};
 }
 
+/// True if shading leaves the lights to a step behind it.
+bool storesSurfaces(const FrameConfiguration& c)
+{
+    return c.light_path != LightPath::materials;
+}
+
+/// Reads of fragments that are lit.
+void addLightReads(const FrameConfiguration& c, Step& step)
+{
+    if (c.has_shadows)
+        step.uses.push_back({Resource::shadow_map, Access::fragment_read, Content::keep, 0});
+    if (c.lists_lights)
+        step.uses.push_back({Resource::light_lists, Access::fragment_read});
+}
+
 /// Return what shading draws to.
 Resource shadedResource(const FrameConfiguration& c)
 {
@@ -111,6 +126,8 @@ Step shadingStep(const FrameConfiguration& c)
               .draws = {.cover = c.material_tiles ? Cover::tiles : Cover::triangle,
                         .discards = !by_depth,
                         .writes_fragment_depth = by_depth}};
+    if (storesSurfaces(c))
+        step.attachments.push_back({Resource::surfaces, Access::color_write, Content::begin});
     addDrawnLists(step, Resource::visible_list);
     for (const Resource lists : {Resource::visible_list, Resource::pages})
         step.uses.push_back({lists, Access::fragment_read});
@@ -122,10 +139,25 @@ Step shadingStep(const FrameConfiguration& c)
         step.uses.push_back({Resource::tile_lists, Access::vertex_read});
     if (c.gathers_light)
         step.uses.push_back({Resource::gathered_light, Access::fragment_read});
-    if (c.has_shadows)
-        step.uses.push_back({Resource::shadow_map, Access::fragment_read, Content::keep, 0});
-    if (c.lists_lights)
-        step.uses.push_back({Resource::light_lists, Access::fragment_read});
+    addLightReads(c, step);
+    return step;
+}
+
+/// Add the light of lamps and suns to the surfaces that shading has stored.
+Step lightStep(const FrameConfiguration& c)
+{
+    Step step{.step = FrameStep::add_lights,
+              .kind = PassKind::render,
+              .attachments = {{Resource::depth, Access::depth_input},
+                              {Resource::radiance, Access::color_write, Content::keep}},
+              .draws = {.cover = Cover::triangle}};
+    if (hasSubpasses(c.way))
+        step.attachments.push_back({Resource::surfaces, Access::input});
+    else
+        step.uses.push_back({Resource::surfaces, Access::fragment_read});
+    addLightReads(c, step);
+    if (c.lists_lights) // volumes of lights
+        step.uses.push_back({Resource::light_lists, Access::vertex_read});
     return step;
 }
 
@@ -141,11 +173,30 @@ Step filterStep(FrameStep step, Resource target, std::initializer_list<Resource>
     return filter;
 }
 
+/// True if the final pass reads the pixel's own value.
+bool finishesOnTile(const FrameConfiguration& c)
+{
+    return hasSubpasses(c.way) && c.light_path == LightPath::surfaces_on_tile;
+}
+
+/// Finish the image behind the lights. The depth is bound because all subpasses share it.
+Step tileFinalStep()
+{
+    return {.step = FrameStep::final_pass,
+            .kind = PassKind::render,
+            .attachments = {{Resource::depth, Access::depth_keep},
+                            {Resource::color, Access::color_write, Content::overwrite},
+                            {Resource::radiance, Access::input}},
+            .draws = {.cover = Cover::triangle}};
+}
+
 /// List the steps behind shading: automatic exposure, bloom, and the final pass.
 void addFinalSteps(const FrameConfiguration& c, std::vector<Step>& steps)
 {
     if (!c.has_final_pass)
         return;
+    if (finishesOnTile(c))
+        return steps.push_back(tileFinalStep());
     if (c.adapts_exposure)
         steps.push_back(filterStep(FrameStep::exposure, Resource::exposure,
                                    {bloomLevel(shared::kBloomLevels), Resource::last_exposure}));
@@ -255,6 +306,8 @@ std::vector<Step> listSteps(const FrameConfiguration& c)
                                   {Resource::gather_points, Access::compute_write, Content::keep},
                                   {Resource::gathered_light, Access::compute_write, Content::overwrite}}});
     steps.push_back(shadingStep(c));
+    if (storesSurfaces(c))
+        steps.push_back(lightStep(c));
     addFinalSteps(c, steps);
     return steps;
 }
@@ -264,30 +317,51 @@ Subpass makeSubpass(const Step& step)
     return {.step = step.step, .attachments = step.attachments, .draws = step.draws};
 }
 
-/// Return the subpass of a step that is drawn elsewhere: all merged render passes have the same two.
+/// Return the subpass of a step that is drawn elsewhere: all merged render passes have the same ones.
 Subpass makeEmptySubpass(const Step& step)
 {
     return {.step = step.step, .is_empty = true, .attachments = step.attachments};
 }
 
-bool drawsVisibility(FrameStep step)
+/// List the steps that one render pass of the ways with subpasses can have, one behind the other.
+std::vector<Step> listMergedSteps(const FrameConfiguration& c)
 {
-    return step == FrameStep::early_visibility || step == FrameStep::visibility;
+    std::vector<Step> steps = {visibilityStep(FrameStep::visibility, Content::keep), shadingStep(c)};
+    if (c.light_path == LightPath::surfaces_on_tile)
+        steps.insert(steps.end(), {lightStep(c), tileFinalStep()});
+    return steps;
 }
 
-/// Join steps into passes: shading shares the render pass of the visibility buffer if nothing lies between.
+/// True if a step cannot share a render pass with what is drawn before it.
+bool splitsBefore(const FrameConfiguration& c, FrameStep step)
+{
+    return step == FrameStep::shading && splitsAtVisibility(c);
+}
+
+/// Return the number of a step among the merged ones; their count if it is none of them.
+size_t findMerged(const std::vector<Step>& merged, FrameStep step)
+{
+    const FrameStep sought = step == FrameStep::early_visibility ? FrameStep::visibility : step;
+    return static_cast<size_t>(
+        std::find_if(merged.begin(), merged.end(), [&](const Step& other) { return other.step == sought; }) -
+        merged.begin());
+}
+
+/// Join steps into passes: neighbours that draw share a render pass if nothing lies between.
 std::vector<Pass> joinSteps(const FrameConfiguration& c, const std::vector<Step>& steps)
 {
+    const std::vector<Step> merged = hasSubpasses(c.way) ? listMergedSteps(c) : std::vector<Step>();
     std::vector<Pass> passes;
     for (const Step& step : steps)
     {
-        const bool continues = step.step == FrameStep::shading && !passes.empty() &&
-                               passes.back().steps.back() == FrameStep::visibility && !splitsAtVisibility(c);
-        if (continues)
+        const size_t number = findMerged(merged, step.step);
+        const bool is_merged = number < merged.size();
+        if (is_merged && number > 0 && passes.back().steps.back() == merged[number - 1].step &&
+            !splitsBefore(c, step.step))
         {
             Pass& pass = passes.back();
             pass.steps.push_back(step.step);
-            pass.subpasses.back() = makeSubpass(step);
+            pass.subpasses[number] = makeSubpass(step);
             pass.uses.insert(pass.uses.end(), step.uses.begin(), step.uses.end());
             continue;
         }
@@ -298,12 +372,10 @@ std::vector<Pass> joinSteps(const FrameConfiguration& c, const std::vector<Step>
                   .map = step.map,
                   .map_format = step.map ? c.shadow_format : VK_FORMAT_UNDEFINED,
                   .radiance_format = c.has_final_pass ? c.radiance_format : kPackedRadiance};
-        const bool has_subpasses = hasSubpasses(c.way);
-        if (has_subpasses && drawsVisibility(step.step))
-            pass.subpasses = {makeSubpass(step), makeEmptySubpass(shadingStep(c))};
-        else if (has_subpasses && step.step == FrameStep::shading)
-            pass.subpasses = {makeEmptySubpass(visibilityStep(FrameStep::visibility, Content::keep)),
-                              makeSubpass(step)};
+        for (const Step& other : is_merged ? merged : std::vector<Step>())
+            pass.subpasses.push_back(makeEmptySubpass(other));
+        if (is_merged)
+            pass.subpasses[number] = makeSubpass(step);
         else if (step.kind == PassKind::render)
             pass.subpasses = {makeSubpass(step)};
         passes.push_back(std::move(pass));
@@ -311,7 +383,8 @@ std::vector<Pass> joinSteps(const FrameConfiguration& c, const std::vector<Step>
     return passes;
 }
 
-/// First use of a resource by a pass; null if it has none.
+/// First use of a resource by a pass, which is more than to bind it if there is such a use; null if it has
+/// none.
 const ResourceUse* firstUse(const Pass& pass, Resource resource)
 {
     const auto find = [&](const std::vector<ResourceUse>& uses) -> const ResourceUse*
@@ -320,11 +393,15 @@ const ResourceUse* firstUse(const Pass& pass, Resource resource)
                                         [&](const ResourceUse& use) { return use.resource == resource; });
         return found == uses.end() ? nullptr : &*found;
     };
+    const ResourceUse* bound = nullptr;
     for (const Subpass& subpass : pass.subpasses)
-        if (!subpass.is_empty)
-            if (const ResourceUse* use = find(subpass.attachments))
+        if (const ResourceUse* use = subpass.is_empty ? nullptr : find(subpass.attachments))
+        {
+            if (use->access != Access::depth_keep)
                 return use;
-    return find(pass.uses);
+            bound = use;
+        }
+    return bound != nullptr ? bound : find(pass.uses);
 }
 
 /// The depth that is merely bound needs no content.
@@ -351,6 +428,15 @@ const Pass* findReader(std::span<const Pass> passes, size_t from, Resource resou
             if (use->access != Access::depth_keep)
                 return nullptr;
         }
+    return nullptr;
+}
+
+/// First pass after `from` that uses a resource; null if there is none.
+const Pass* findUser(std::span<const Pass> passes, size_t from, Resource resource)
+{
+    for (size_t i = from + 1; i < passes.size(); ++i)
+        if (!areApart(passes[from], passes[i], resource) && firstUse(passes[i], resource) != nullptr)
+            return &passes[i];
     return nullptr;
 }
 
@@ -397,12 +483,14 @@ void setAttachments(const FrameConfiguration& c, std::span<Pass> passes, size_t 
         const ResourceUse* first = firstUse(pass, resource);
         const Pass* reader = findReader(passes, number, resource);
         // the layout of an image that was stored stands for its content
+        const bool is_needed_later = before != VK_IMAGE_LAYOUT_UNDEFINED && reader != nullptr;
+        // an empty subpass would load and store what it does not use
+        HEARTH_ASSERT(first != nullptr || !is_needed_later);
         const bool passes_through =
-            first == nullptr && before != VK_IMAGE_LAYOUT_UNDEFINED && reader != nullptr;
-        HEARTH_ASSERT(!passes_through); // an empty subpass would load and store what it does not use
+            first != nullptr && first->access == Access::depth_keep && is_needed_later;
         if (first != nullptr && first->content == Content::begin)
             attachment.load = LoadOperation::clear;
-        else if (first != nullptr && needsContent(*first))
+        else if (first != nullptr && (needsContent(*first) || passes_through))
         {
             HEARTH_ASSERT(before != VK_IMAGE_LAYOUT_UNDEFINED);
             attachment.load = LoadOperation::load;
@@ -412,9 +500,10 @@ void setAttachments(const FrameConfiguration& c, std::span<Pass> passes, size_t 
         if (has_content && reader != nullptr)
         {
             attachment.store = true;
-            attachment.reader = userName(*reader, resource);
-            const Access access = firstUse(*reader, resource)->access;
-            attachment.final_layout = accessLayout(access);
+            // a pass may lie between that only binds it
+            const Pass& user = *findUser(passes, number, resource);
+            attachment.reader = userName(user, resource);
+            attachment.final_layout = accessLayout(firstUse(user, resource)->access);
         }
         else if (const auto access = readByNextFrame(c, resource); has_content && access)
         {
@@ -474,11 +563,16 @@ Touches touchesOfEarlierFrames(FrameWay way, MaterialTest materials)
 {
     Touches touches;
     std::vector<FrameConfiguration> all = allConfigurations(way, materials);
-    all.push_back({.way = way,
-                   .materials = materials,
-                   .has_final_pass = true,
-                   .adapts_exposure = true,
-                   .blooms = true});
+    for (const LightPath path : {LightPath::materials, LightPath::surfaces_on_tile, LightPath::surfaces})
+    {
+        const bool on_tile = path == LightPath::surfaces_on_tile;
+        all.push_back({.way = way,
+                       .materials = materials,
+                       .has_final_pass = true,
+                       .adapts_exposure = !on_tile,
+                       .blooms = !on_tile,
+                       .light_path = path});
+    }
     for (FrameConfiguration c : all)
     {
         addLightLists(c);
@@ -595,7 +689,8 @@ void setBarriers(const FrameConfiguration& c, std::span<Pass> passes, size_t num
 std::vector<Resource> findTransient(std::span<const Pass> passes)
 {
     std::vector<Resource> transient;
-    for (const Resource resource : {Resource::visibility, Resource::depth, Resource::color})
+    for (const Resource resource :
+         {Resource::visibility, Resource::depth, Resource::color, Resource::surfaces, Resource::radiance})
     {
         bool leaves_tile = false;
         for (const Pass& pass : passes)
@@ -651,7 +746,8 @@ void addLightLists(FrameConfiguration& configuration)
     configuration.lists_visible = configuration.in_parts;
 }
 
-std::vector<FrameConfiguration> allConfigurations(FrameWay way, MaterialTest materials, bool has_final_passes)
+std::vector<FrameConfiguration> allConfigurations(FrameWay way, MaterialTest materials,
+                                                  FrameFeatures features)
 {
     std::vector<FrameConfiguration> all;
     for (const OcclusionCulling occlusion :
@@ -666,23 +762,41 @@ std::vector<FrameConfiguration> allConfigurations(FrameWay way, MaterialTest mat
                            .keeps_visibility = (bits & 8) != 0,
                            .shows_overdraw = (bits & 16) != 0});
     HEARTH_ASSERT(all.size() == kConfigurationCount);
-    for (uint32_t finals = 1; finals < kFinalPassCount && has_final_passes; ++finals)
-        for (uint32_t i = 0; i < kConfigurationCount; ++i)
-        {
-            FrameConfiguration c = all[i];
-            c.has_final_pass = true;
-            c.adapts_exposure = ((finals - 1) & 1) != 0;
-            c.blooms = ((finals - 1) & 2) != 0;
-            all.push_back(c);
-        }
+    const auto addFinished = [&](LightPath path, uint32_t count)
+    {
+        for (uint32_t finals = 1; finals <= count; ++finals)
+            for (uint32_t i = 0; i < kConfigurationCount; ++i)
+            {
+                FrameConfiguration c = all[i];
+                c.has_final_pass = true;
+                c.adapts_exposure = ((finals - 1) & 1) != 0;
+                c.blooms = ((finals - 1) & 2) != 0;
+                c.light_path = path;
+                all.push_back(c);
+            }
+    };
+    if (features >= FrameFeatures::finished)
+        addFinished(LightPath::materials, kFinalPassCount - 1);
+    if (features >= FrameFeatures::deferred)
+    {
+        addFinished(LightPath::surfaces, kFinalPassCount - 1);
+        addFinished(LightPath::surfaces_on_tile, 1);
+    }
     return all;
 }
 
 uint32_t configurationIndex(const FrameConfiguration& c)
 {
     const auto bit = [](bool set, uint32_t number) { return (set ? 1u : 0u) << number; };
-    const uint32_t finals = c.has_final_pass ? 1 + bit(c.adapts_exposure, 0) + bit(c.blooms, 1) : 0;
-    return kConfigurationCount * finals + 32 * static_cast<uint32_t>(c.occlusion) + bit(c.material_tiles, 0) +
+    uint32_t block = 0; // of kConfigurationCount
+    if (c.has_final_pass)
+    {
+        const uint32_t added = c.light_path == LightPath::materials  ? 0
+                               : c.light_path == LightPath::surfaces ? 1
+                                                                     : 2;
+        block = 1 + (kFinalPassCount - 1) * added + bit(c.adapts_exposure, 0) + bit(c.blooms, 1);
+    }
+    return kConfigurationCount * block + 32 * static_cast<uint32_t>(c.occlusion) + bit(c.material_tiles, 0) +
            bit(c.gathers_light, 1) + bit(c.in_parts || c.lists_visible, 2) + bit(c.keeps_visibility, 3) +
            bit(c.shows_overdraw, 4);
 }

@@ -20,10 +20,17 @@ inline constexpr uint32_t kConfigurationCount = 96;
 /// Final passes that a frame may have: none; with and without automatic exposure and bloom.
 inline constexpr uint32_t kFinalPassCount = 5;
 
+/// Frames that a renderer can draw; each value adds to the one before.
+enum class FrameFeatures : uint8_t
+{
+    shaded,   ///< shading finishes the image
+    finished, ///< final passes as well: kFinalPassCount times as many configurations
+    deferred, ///< every LightPath as well
+};
+
 /// Return all configurations of a way with a material test; scenes have neither shadows nor bricks.
-/// has_final_passes  with final passes as well: kFinalPassCount times as many
 std::vector<FrameConfiguration> allConfigurations(FrameWay way, MaterialTest materials,
-                                                  bool has_final_passes = false);
+                                                  FrameFeatures features = FrameFeatures::shaded);
 /// Position in the list of all configurations, whatever the scene has: frames that list lights for visible
 /// pixels have the position of frames in parts.
 uint32_t configurationIndex(const FrameConfiguration& configuration);

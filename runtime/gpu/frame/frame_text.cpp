@@ -15,6 +15,7 @@ namespace
 constexpr const char* kWayNames[] = {"merged", "separate", "one-set"};
 constexpr const char* kOcclusionNames[] = {"off", "last-frame", "two-phase"};
 constexpr const char* kMaterialTestNames[] = {"depth", "id"};
+constexpr const char* kLightPathNames[] = {"materials", "surfaces-on-tile", "surfaces"};
 constexpr const char* kLoadNames[] = {"none", "clear", "load"};
 constexpr const char* kKindNames[] = {"compute", "render", "transfer"};
 
@@ -134,7 +135,8 @@ std::string jsonConfiguration(const FrameConfiguration& c)
            ",\"light_lists\":" + boolean(c.lists_lights) + ",\"slot_lights\":" + boolean(c.lists_slots) +
            ",\"visible_lights\":" + boolean(c.lists_visible) + ",\"bricks\":" + boolean(c.lights_bricks) +
            ",\"final_pass\":" + boolean(c.has_final_pass) +
-           ",\"automatic_exposure\":" + boolean(c.adapts_exposure) + ",\"bloom\":" + boolean(c.blooms) + "}";
+           ",\"automatic_exposure\":" + boolean(c.adapts_exposure) + ",\"bloom\":" + boolean(c.blooms) +
+           ",\"lights\":" + quoted(enumName(kLightPathNames, c.light_path)) + "}";
 }
 
 } // namespace

@@ -17,6 +17,10 @@ enum class LightMethod : uint8_t
     tiled_forward,
     clustered_forward,
     forward,
+    deferred,
+    tiled_deferred,
+    clustered_deferred,
+    tile_deferred,
     count,
 };
 inline constexpr size_t kLightMethodCount = static_cast<size_t>(LightMethod::count);
@@ -37,12 +41,39 @@ constexpr bool needPixels(LightAreas areas)
     return areas == LightAreas::visible_cells || areas == LightAreas::tiles;
 }
 
+/// Place at which a frame adds its lights.
+enum class LightPath : uint8_t
+{
+    materials, ///< shading of materials evaluates lights as well
+    /// Shading stores what lights need of a surface in an image, and a step behind it adds the lights. Needs
+    /// RendererOptions::deferred. All of it is one render pass, up to the finished image.
+    surfaces_on_tile,
+    surfaces, ///< the same in render passes of their own: surfaces are stored in memory
+};
+
+/// Output of shading: frames of each have pipelines of their own.
+enum class ShadedOutput : uint8_t
+{
+    color,
+    radiance,         ///< of frames with a final pass
+    surfaces_on_tile, ///< and radiance, of frames with this LightPath
+    surfaces,
+    count,
+};
+inline constexpr size_t kShadedOutputCount = static_cast<size_t>(ShadedOutput::count);
+
+constexpr bool storesSurfaces(ShadedOutput output)
+{
+    return output >= ShadedOutput::surfaces_on_tile;
+}
+
 struct LightMethodFacts
 {
     const char* name; ///< of --lights
     const char* summary;
     uint32_t light_list; ///< shared::kLightList*: lights that a pixel evaluates
     LightAreas areas;    ///< with lists
+    LightPath path = LightPath::materials;
 };
 
 /// Facts by LightMethod. Methods that add lights in one order draw the same bytes.
@@ -56,6 +87,14 @@ inline constexpr LightMethodFacts kLightMethods[] = {
      shared::kLightListCells, LightAreas::visible_cells},
     {"forward", "each pixel evaluates the lights that reach the box of its cluster", shared::kLightListSlots,
      LightAreas::slots},
+    {"deferred", "surfaces are stored, and each light is added to the pixels in its volume",
+     shared::kLightListVolumes, LightAreas::cells, LightPath::surfaces},
+    {"tiled-deferred", "surfaces are stored, and each pixel evaluates the lights of its tile",
+     shared::kLightListTiles, LightAreas::tiles, LightPath::surfaces},
+    {"clustered-deferred", "surfaces are stored, and each pixel evaluates the lights of its cell",
+     shared::kLightListCells, LightAreas::visible_cells, LightPath::surfaces},
+    {"tile-deferred", "the same as deferred, with surfaces that need not leave the tile",
+     shared::kLightListVolumes, LightAreas::cells, LightPath::surfaces_on_tile},
 };
 static_assert(std::size(kLightMethods) == kLightMethodCount);
 

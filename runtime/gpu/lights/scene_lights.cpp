@@ -106,11 +106,13 @@ void SceneLights::setShadowRow(MirroredTable& table, uint32_t slot, uint32_t row
     table.write(layout_.light(slot) + offsetof(shared::Light, shadow_row), std::as_bytes(std::span(&row, 1)));
 }
 
-bool SceneLights::hasRangedLights() const
+uint32_t SceneLights::rangedCount() const
 {
-    return std::any_of(lighting_.lights.begin(), lighting_.lights.end(),
-                       [](const shared::Light& light)
-                       { return !shared::isUnrangedLight(light) && !shared::isLightOff(light); });
+    return static_cast<uint32_t>(std::count_if(lighting_.lights.begin(), lighting_.lights.end(),
+                                               [](const shared::Light& light) {
+                                                   return !shared::isUnrangedLight(light) &&
+                                                          !shared::isLightOff(light);
+                                               }));
 }
 
 void SceneLights::beginFrame(const MirroredTable& table, uint32_t copy, const shared::FrameView& view,

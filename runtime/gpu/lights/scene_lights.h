@@ -65,11 +65,14 @@ public:
     /// Set the shadow row of a slot in use.
     void setShadowRow(MirroredTable& table, uint32_t slot, uint32_t row);
 
+    /// Number of lights with a range that are on, in view or not.
+    uint32_t rangedCount() const;
+
     /// True if a frame lists its lights on the device: without ranged lights the lists are those of the frame
     /// alone, which the CPU has at once.
     bool listsOnDevice(LightLister lister, LightAreas areas) const
     {
-        return (lister == LightLister::gpu || areas != LightAreas::cells) && hasRangedLights();
+        return (lister == LightLister::gpu || areas != LightAreas::cells) && rangedCount() > 0;
     }
 
     /// Write the grid of the frame's view to the copy of a frame, and the lists unless listsOnDevice.
@@ -83,7 +86,6 @@ public:
 
 private:
     shared::LightListView listView(const Buffer& buffer) const;
-    bool hasRangedLights() const;
 
     LightBufferLayout layout_;
     shared::SceneLighting lighting_;

@@ -53,14 +53,7 @@ Result<FrameTargets> FrameTargets::create(const Device& device, const FramePasse
                          "the device cannot render " + std::to_string(size.width) + "x" +
                              std::to_string(size.height) + " pixels"};
     FrameTargets t(device, extent, options);
-    t.options_.has_final_pass =
-        options.has_final_pass || options.may_bloom || alwaysHasFinalPass(options, extent);
-    HEARTH_ASSERT(passes.hasFinalPasses() || !t.options_.has_final_pass);
-    if (t.options_.has_final_pass)
-    {
-        HEARTH_ASSIGN_OR_RETURN(t.post_, PostTargets::create(device, passes, layouts, t.arena_, extent,
-                                                             options.may_bloom, options.keeps_radiance));
-    }
+    HEARTH_TRY(t.createPost(device, passes, layouts));
     HEARTH_TRY(t.createImages(device, passes));
     HEARTH_TRY(t.createFramebuffers(device, passes));
     HEARTH_TRY(t.createPyramids(device));
@@ -69,12 +62,36 @@ Result<FrameTargets> FrameTargets::create(const Device& device, const FramePasse
     return t;
 }
 
+/// Create the images of final passes, if frames may have one.
+Status FrameTargets::createPost(const Device& device, const FramePasses& passes, const DrawLayouts& layouts)
+{
+    const bool is_sampled =
+        options_.light_path == LightPath::surfaces || (lightsSurfaces() && !hasSubpasses(passes.way()));
+    options_.has_final_pass =
+        options_.has_final_pass || options_.may_bloom || is_sampled || alwaysHasFinalPass(options_, extent_);
+    HEARTH_ASSERT(passes.hasFinalPasses() || !options_.has_final_pass);
+    HEARTH_ASSERT(passes.has(ShadedOutput::surfaces) || !lightsSurfaces());
+    if (!options_.has_final_pass && !lightsSurfaces())
+        return success();
+    const PostUses uses{.leaves_tile = options_.has_final_pass,
+                        .is_input = lightsSurfaces() && hasSubpasses(passes.way()),
+                        .may_bloom = options_.may_bloom,
+                        .keeps_radiance = options_.keeps_radiance};
+    HEARTH_ASSIGN_OR_RETURN(post_, PostTargets::create(device, passes, layouts, arena_, extent_, uses));
+    return success();
+}
+
 bool FrameTargets::allows(const FrameConfiguration& c) const
 {
     const bool splits = c.material_tiles || c.gathers_light || c.lists_visible || c.in_parts;
-    if (c.has_final_pass ? !options_.has_final_pass : alwaysHasFinalPass(options_, extent_))
+    const bool may_finish = options_.has_final_pass || c.light_path != LightPath::materials;
+    if (c.has_final_pass ? !may_finish : alwaysHasFinalPass(options_, extent_))
+        return false;
+    if (c.light_path == LightPath::surfaces_on_tile && alwaysHasFinalPass(options_, extent_))
         return false;
     if ((c.blooms || c.adapts_exposure) && !options_.may_bloom)
+        return false;
+    if (c.light_path > options_.light_path)
         return false;
     return c.occlusion <= options_.occlusion && (!c.keeps_visibility || options_.keeps_visibility) &&
            (!c.gathers_light || options_.gathers_light) && (!splits || options_.may_split);
@@ -84,8 +101,7 @@ bool FrameTargets::allows(const FrameConfiguration& c) const
 Status FrameTargets::createImages(const Device& device, const FramePasses& passes)
 {
     std::set<FrameResource> leave_tile;
-    for (const FrameConfiguration& c :
-         allConfigurations(passes.way(), passes.materials(), passes.hasFinalPasses()))
+    for (const FrameConfiguration& c : allConfigurations(passes.way(), passes.materials(), passes.features()))
         if (allows(c))
             for (const Pass& pass : passes.plan(c).description.passes)
                 for (const AttachmentUse& use : pass.attachments)
@@ -106,17 +122,24 @@ Status FrameTargets::createImages(const Device& device, const FramePasses& passe
                         .kind = on_tile ? MemoryKind::transient : MemoryKind::device}));
         return success();
     };
-    const bool is_input = hasSubpasses(passes.way());
+    const VkImageUsageFlags input =
+        hasSubpasses(passes.way()) ? VkImageUsageFlags{VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT} : 0;
     HEARTH_TRY(create(visibility_, FrameResource::visibility, kVisibilityFormat,
-                      VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
-                          (is_input ? VkImageUsageFlags{VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT} : 0),
+                      VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | input,
                       VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
                       VK_IMAGE_ASPECT_COLOR_BIT));
     const bool has_stencil = passes.materials() == MaterialTest::id;
     HEARTH_TRY(create(depth_, FrameResource::depth, depthFormat(passes.materials()),
-                      VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, VK_IMAGE_USAGE_SAMPLED_BIT,
+                      VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT |
+                          (lightsSurfaces() ? VkImageUsageFlags{VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT} : 0),
+                      VK_IMAGE_USAGE_SAMPLED_BIT,
                       VK_IMAGE_ASPECT_DEPTH_BIT | (has_stencil ? VK_IMAGE_ASPECT_STENCIL_BIT : 0)));
-    if (leave_tile.contains(FrameResource::depth))
+    if (lightsSurfaces())
+        HEARTH_TRY(create(surfaces_, FrameResource::surfaces, kSurfacesFormat,
+                          VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | input, VK_IMAGE_USAGE_SAMPLED_BIT,
+                          VK_IMAGE_ASPECT_COLOR_BIT));
+    depth_leaves_tile_ = leave_tile.contains(FrameResource::depth);
+    if (depth_leaves_tile_ || lightsSurfaces())
     {
         HEARTH_ASSIGN_OR_RETURN(sampled_depth_, createDepthView(device, depth_));
     }
@@ -137,6 +160,8 @@ const Image& FrameTargets::attachmentImage(FrameResource resource, uint32_t expo
         return depth_;
     case FrameResource::color:
         return color_;
+    case FrameResource::surfaces:
+        return surfaces_;
     case FrameResource::exposure:
         return post_ ? post_->exposureImage(exposure) : kNone;
     default:
@@ -276,8 +301,7 @@ Status FrameTargets::createSets(const Device& device, const DrawLayouts& layouts
     attachments.texture(shared::kAttachmentGi, (gather_ ? gather_->texels() : no_light_).view.get(),
                         texel_sampler_.get());
     attachments.write(device);
-    const bool has_depth = sampled_depth_.get() != VK_NULL_HANDLE;
-    if (!has_depth)
+    if (!depth_leaves_tile_)
     {
         HEARTH_ASSIGN_OR_RETURN(no_depth_, createTexel(arena_, VK_FORMAT_R32_SFLOAT));
     }
@@ -289,7 +313,8 @@ Status FrameTargets::createSets(const Device& device, const DrawLayouts& layouts
             DescriptorWriter(set)
                 .uniform(shared::kOcclusionViews, occlusion.views)
                 .storage(shared::kOcclusionPyramid, pyramids_[number])
-                .texture(shared::kOcclusionDepth, has_depth ? sampled_depth_.get() : no_depth_.view.get(),
+                .texture(shared::kOcclusionDepth,
+                         depth_leaves_tile_ ? sampled_depth_.get() : no_depth_.view.get(),
                          texel_sampler_.get())
                 .write(device);
         }

@@ -37,6 +37,9 @@ struct TargetOptions
     VkExtent2D output{};
     /// `radiance` can be copied after a frame.
     bool keeps_radiance = false;
+    /// The most that the light method of a frame asks for: materials < surfaces_on_tile < surfaces. With
+    /// bloom, automatic exposure or an output of another size, methods on the tile ask for `surfaces`.
+    LightPath light_path = LightPath::materials;
 };
 
 /// True if every frame with targets of this size has a final pass.
@@ -80,6 +83,11 @@ public:
     VkFramebuffer framebuffer(uint32_t family) const;
     VkExtent2D framebufferExtent(uint32_t family) const { return framebuffers_[family].extent; }
     AttachmentSet attachments() const { return {set_, identity_}; }
+    /// With TargetOptions::light_path other than materials.
+    LitImages litImages() const
+    {
+        return {surfaces_.view.get(), sampled_depth_.get(), texel_sampler_.get(), identity_};
+    }
     VkDeviceSize allocatedBytes() const { return arena_.allocatedBytes(); }
     /// Bytes of attachments that exist on the tile only, where the device has lazily allocated memory;
     /// allocatedBytes leaves them out.
@@ -129,6 +137,8 @@ private:
         : extent_(extent), options_(options), arena_(device, 0)
     {
     }
+    bool lightsSurfaces() const { return options_.light_path != LightPath::materials; }
+    Status createPost(const Device& device, const FramePasses& passes, const DrawLayouts& layouts);
     Status createImages(const Device& device, const FramePasses& passes);
     Status createFramebuffers(const Device& device, const FramePasses& passes);
     Status createFramebuffer(const Device& device, const PassFamily& family, uint32_t exposure,
@@ -146,7 +156,9 @@ private:
     MemoryArena arena_;
     Image visibility_;
     Image depth_;
-    UniqueImageView sampled_depth_; ///< without a stencil; empty if the depth never leaves the tile
+    Image surfaces_; ///< of light paths other than materials
+    bool depth_leaves_tile_ = false;
+    UniqueImageView sampled_depth_; ///< without a stencil; empty if no frame reads the depth
     Image color_;
     // texels in place of images that no frame reads: some drivers look at all descriptors of a set
     Image no_depth_, no_light_;

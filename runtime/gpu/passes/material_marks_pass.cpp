@@ -11,12 +11,12 @@ namespace hearth::gpu
 {
 
 Result<MaterialMarksPass> MaterialMarksPass::create(const Device& device, const DrawLayouts& layouts,
-                                                    const FramePasses& passes, bool has_final_pass)
+                                                    const FramePasses& passes, ShadedOutput output)
 {
     MaterialMarksPass pass;
     pass.materials_ = passes.materials();
     const bool by_depth = pass.materials_ == MaterialTest::depth;
-    const DrawPlace place = passes.shadingPlace(has_final_pass);
+    const DrawPlace place = passes.place(output, FrameStep::shading);
     const shaders::Variant reading = shaderVariant(passes.way());
     HEARTH_ASSIGN_OR_RETURN(
         pass.pipeline_,
@@ -30,6 +30,7 @@ Result<MaterialMarksPass> MaterialMarksPass::create(const Device& device, const 
                                         .depth_write = by_depth,
                                         .color = true,
                                         .color_write = false,
+                                        .second_color = storesSurfaces(output),
                                         .stencil = by_depth ? Stencil::none : Stencil::mark}));
     return pass;
 }

@@ -17,7 +17,7 @@ class MaterialMarksPass
 {
 public:
     static Result<MaterialMarksPass> create(const Device& device, const DrawLayouts& layouts,
-                                            const FramePasses& passes, bool has_final_pass);
+                                            const FramePasses& passes, ShadedOutput output);
 
     /// Record in FrameStep::shading, with viewport and scissor set. Clobbers the graphics state.
     void record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,

@@ -27,7 +27,7 @@ bool isRepeated(FrameStep step)
            step == FrameStep::bloom_down || step == FrameStep::bloom_up;
 }
 
-constexpr size_t kMaxAttachments = 3;
+constexpr size_t kMaxAttachments = 8;
 
 VkClearValue clearValue(FrameResource resource)
 {
@@ -36,7 +36,7 @@ VkClearValue clearValue(FrameResource resource)
         value.color.uint32[0] = shared::kVisibilitySky;
     else if (resource == FrameResource::depth || resource == FrameResource::shadow_map)
         value.depthStencil = {0, 0}; // at infinity
-    else
+    else if (resource != FrameResource::surfaces)
         value.color = {.float32 = {0, 0, 0, 1}};
     return value;
 }
@@ -92,6 +92,21 @@ void PassRecorder::end()
 bool PassRecorder::has(FrameStep step) const
 {
     return findPass(plan_.description, step) != nullptr;
+}
+
+ShadedOutput PassRecorder::shadedOutput() const
+{
+    const FrameConfiguration& c = plan_.description.configuration;
+    switch (c.light_path)
+    {
+    case LightPath::surfaces:
+        return ShadedOutput::surfaces;
+    case LightPath::surfaces_on_tile:
+        return ShadedOutput::surfaces_on_tile;
+    case LightPath::materials:
+        break;
+    }
+    return c.has_final_pass ? ShadedOutput::radiance : ShadedOutput::color;
 }
 
 bool PassRecorder::sharesPass(FrameStep first, FrameStep second) const

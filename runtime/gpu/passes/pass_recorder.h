@@ -34,6 +34,8 @@ public:
 
     /// True if the frame has the step.
     bool has(FrameStep step) const;
+    /// Output of the frame's shading.
+    ShadedOutput shadedOutput() const;
     /// True if the frame has both steps in one render pass.
     bool sharesPass(FrameStep first, FrameStep second) const;
 

@@ -50,6 +50,17 @@ uint32_t skyOcclusion(const Scene& scene, const ShadingSettings& view)
 
 } // namespace
 
+/// Return the shader that shades materials.
+std::span<const uint32_t> ShadingPass::materialShader(bool shadowed, bool gi) const
+{
+    const shaders::Variant reading = shaderVariant(way_);
+    if (storesSurfaces(output_))
+        return gi ? (shadowed ? shaders::surfaces_shadowed_gi_frag : shaders::surfaces_gi_frag)[reading]
+                  : (shadowed ? shaders::surfaces_shadowed_frag : shaders::surfaces_frag)[reading];
+    return gi ? (shadowed ? shaders::shading_shadowed_gi_frag : shaders::shading_gi_frag)[reading]
+              : (shadowed ? shaders::shading_shadowed_frag : shaders::shading_frag)[reading];
+}
+
 /// Describe a pipeline that shades the pixels of one material.
 GraphicsDescription ShadingPass::describe(std::span<const uint32_t> fragment, VkPipelineLayout layout) const
 {
@@ -62,6 +73,7 @@ GraphicsDescription ShadingPass::describe(std::span<const uint32_t> fragment, Vk
             .depth_compare = by_depth ? VK_COMPARE_OP_EQUAL : VK_COMPARE_OP_ALWAYS,
             .depth_write = false,
             .color = true,
+            .second_color = storesSurfaces(output_),
             .stencil = by_depth ? Stencil::none : Stencil::test};
 }
 
@@ -106,19 +118,23 @@ void ShadingPass::setStencil(const Device& device, VkCommandBuffer commands, uin
 }
 
 Result<ShadingPass> ShadingPass::create(const Device& device, const DrawLayouts& layouts,
-                                        const FramePasses& passes, bool has_final_pass, uint32_t stored)
+                                        const FramePasses& passes, ShadedOutput output, uint32_t stored)
 {
     ShadingPass pass;
-    pass.has_final_pass_ = has_final_pass;
-    pass.place_ = passes.shadingPlace(has_final_pass);
+    pass.output_ = output;
+    pass.place_ = passes.place(output, FrameStep::shading);
     pass.way_ = passes.way();
     const shaders::Variant reading = shaderVariant(pass.way_);
     pass.material_test_ = passes.materials();
     pass.view_constants_[shared::kConstantComparesMaterial] = pass.material_test_ == MaterialTest::id ? 1 : 0;
     pass.view_constants_[shared::kConstantStored] = stored;
-    GraphicsDescription sky = pass.describe(shaders::sky_frag[reading], layouts.shading.get());
+    const bool stores_surfaces = storesSurfaces(output);
+    GraphicsDescription sky = pass.describe(
+        (stores_surfaces ? shaders::surfaces_sky_frag : shaders::sky_frag)[reading], layouts.shading.get());
     sky.constants = pass.view_constants_;
     HEARTH_ASSIGN_OR_RETURN(pass.sky_, createGraphicsPipeline(device, sky));
+    if (stores_surfaces)
+        return pass;
     GraphicsDescription clusters =
         pass.describeSurfaceView(shaders::view_clusters_frag[reading], layouts.clusters.get());
     clusters.constants = pass.view_constants_;
@@ -126,8 +142,9 @@ Result<ShadingPass> ShadingPass::create(const Device& device, const DrawLayouts&
     return pass;
 }
 
-Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLayouts& layouts,
-                                              const ShadingVariant& variant)
+/// Create the pipelines of the debug views that a scene with this variant may show.
+Status ShadingPass::prepareViews(const Device& device, const DrawLayouts& layouts,
+                                 const ShadingVariant& variant)
 {
     UniquePipeline& shadow_maps = shadow_map_views_[variant.deformed][variant.filters_shadows];
     if (variant.shadows != 0 && shadow_maps.get() == VK_NULL_HANDLE)
@@ -138,27 +155,35 @@ Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLa
         maps.constants = constants;
         HEARTH_ASSIGN_OR_RETURN(shadow_maps, createGraphicsPipeline(device, maps));
     }
-    if (variant.bricks != 0)
-        HEARTH_TRY(prepareBrickViews(device, layouts, variant));
+    return variant.bricks != 0 ? prepareBrickViews(device, layouts, variant) : success();
+}
+
+Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLayouts& layouts,
+                                              const ShadingVariant& variant)
+{
+    const bool has_views = !storesSurfaces(output_);
+    if (has_views)
+        HEARTH_TRY(prepareViews(device, layouts, variant));
     const auto [entry, fresh] = variants_.try_emplace(variant);
     Variant& pipelines = entry->second;
+    const bool shadowed = variant.shadows != 0;
     if (fresh)
     {
         const DrawConstants constants = drawConstants(variant, false);
-        GraphicsDescription description =
-            describe((variant.shadows != 0 ? shaders::shading_shadowed_frag
-                                           : shaders::shading_frag)[shaderVariant(way_)],
-                     layouts.shading.get());
+        GraphicsDescription description = describe(materialShader(shadowed, false), layouts.shading.get());
         description.constants = constants;
         HEARTH_ASSIGN_OR_RETURN(pipelines.final_pipeline, createGraphicsPipeline(device, description));
         if (variant.bricks != 0)
         {
-            description.fragment = (variant.shadows != 0 ? shaders::shading_shadowed_gi_frag
-                                                         : shaders::shading_gi_frag)[shaderVariant(way_)];
+            description.fragment = materialShader(shadowed, true);
             HEARTH_ASSIGN_OR_RETURN(pipelines.final_gi_pipeline, createGraphicsPipeline(device, description));
         }
         description.fragment = shaders::view_surface_frag[shaderVariant(way_)];
-        HEARTH_ASSIGN_OR_RETURN(pipelines.debug_view_pipeline, createGraphicsPipeline(device, description));
+        if (has_views)
+        {
+            HEARTH_ASSIGN_OR_RETURN(pipelines.debug_view_pipeline,
+                                    createGraphicsPipeline(device, description));
+        }
     }
     return ShadingPipelines{pipelines.final_pipeline.get(), pipelines.final_gi_pipeline.get(),
                             pipelines.debug_view_pipeline.get()};
@@ -293,7 +318,7 @@ void ShadingPass::recordMaterials(const Device& device, VkCommandBuffer commands
     {
         const SceneMaterial& material = scene.materials[row];
         const ShadingPipelines& pipelines =
-            material.pipelines[static_cast<size_t>(view.light_method)][has_final_pass_ ? 1 : 0];
+            material.pipelines[static_cast<size_t>(lightMethod(view))][static_cast<size_t>(output_)];
         device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
                                     view.debug_view != shared::kViewFinal ? pipelines.debug_view_pipeline
                                     : usesGi(scene, view)                 ? pipelines.final_gi_pipeline

@@ -60,6 +60,24 @@ inline bool shadesTiles(const Scene& scene, ShadedArea area)
            (area == ShadedArea::automatic && scene.materials.size() > kWholeFrameMaterials);
 }
 
+/// Return the method by which the frame adds its lights: debug views that shade nothing have the default.
+inline LightMethod lightMethod(const ShadingSettings& view)
+{
+    return view.debug_view == shared::kViewFinal ||
+                   lightMethodFacts(view.light_method).path == LightPath::materials
+               ? view.light_method
+               : LightMethod::practical;
+}
+
+/// Return the place of the frame's lights. On the tile nothing lies behind them but the pixel's final pass.
+inline LightPath neededLightPath(const FrameTargets& targets, const ShadingSettings& view)
+{
+    const LightPath path = lightMethodFacts(lightMethod(view)).path;
+    const bool leaves_tile =
+        usesBloom(view) || adaptsExposure(view) || alwaysHasFinalPass(targets.options(), targets.extent());
+    return path == LightPath::surfaces_on_tile && leaves_tile ? LightPath::surfaces : path;
+}
+
 /// True if the frame uses gathered light (GI).
 inline bool usesGi(const Scene& scene, const ShadingSettings& view)
 {
@@ -70,13 +88,12 @@ inline bool usesGi(const Scene& scene, const ShadingSettings& view)
 class ShadingPass
 {
 public:
-    /// has_final_pass  shades the frames that have one
-    /// stored          value of shared::kConstantStored
+    /// stored  value of shared::kConstantStored
     static Result<ShadingPass> create(const Device& device, const DrawLayouts& layouts,
-                                      const FramePasses& passes, bool has_final_pass, uint32_t stored);
+                                      const FramePasses& passes, ShadedOutput output, uint32_t stored);
 
     /// Return the pipelines of a material; creates each variant once and caches it. Call before frames are
-    /// recorded.
+    /// recorded. Frames that light stored surfaces show no debug views, and have no pipelines for them.
     Result<ShadingPipelines> prepare(const Device& device, const DrawLayouts& layouts,
                                      const ShadingVariant& variant);
 
@@ -85,6 +102,7 @@ public:
                 const Scene& scene, const FrameTargets& targets, const ShadingSettings& view) const;
 
 private:
+    Status prepareViews(const Device& device, const DrawLayouts& layouts, const ShadingVariant& variant);
     Status prepareBrickViews(const Device& device, const DrawLayouts& layouts, const ShadingVariant& variant);
     struct Variant
     {
@@ -106,6 +124,7 @@ private:
     void recordMaterials(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                          const Scene& scene, const FrameTargets& targets, const ShadingSettings& view) const;
 
+    std::span<const uint32_t> materialShader(bool shadowed, bool gi) const;
     GraphicsDescription describe(std::span<const uint32_t> fragment, VkPipelineLayout layout) const;
     GraphicsDescription describeSurfaceView(std::span<const uint32_t> fragment,
                                             VkPipelineLayout layout) const;
@@ -114,7 +133,7 @@ private:
 
     DrawPlace place_{};
     FrameWay way_ = FrameWay::merged;
-    bool has_final_pass_ = false;
+    ShadedOutput output_ = ShadedOutput::color;
     MaterialTest material_test_ = MaterialTest::depth;
     DrawConstants view_constants_{}; ///< of pipelines that reconstruct no surface
     UniquePipeline sky_;

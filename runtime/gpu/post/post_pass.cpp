@@ -18,11 +18,10 @@ Result<PostPass> PostPass::create(const Device& device, const DrawLayouts& layou
     DrawConstants constants{}; // these shaders have no others
     constants[shared::kConstantStored] =
         passes.radianceFormat() == kPackedRadiance ? shared::kStoredPacked : shared::kStoredHalf;
-    const NumberedSet sets[] = {{shared::kSetPost, layouts.post.get()}};
-    const auto create = [&](FrameStep step, std::span<const uint32_t> fragment,
-                            uint32_t push_bytes) -> Result<Pipeline>
+    const auto createAt = [&](const DrawPlace& place, VkDescriptorSetLayout set,
+                              std::span<const uint32_t> fragment, uint32_t push_bytes) -> Result<Pipeline>
     {
-        const DrawPlace place = passes.filterPlace(step);
+        const NumberedSet sets[] = {{shared::kSetPost, set}};
         Pipeline pipeline;
         HEARTH_ASSIGN_OR_RETURN(pipeline.layout, createPipelineLayout(device, sets, kPushStages, push_bytes));
         HEARTH_ASSIGN_OR_RETURN(pipeline.pipeline,
@@ -37,7 +36,16 @@ Result<PostPass> PostPass::create(const Device& device, const DrawLayouts& layou
                                                                 .constants = constants}));
         return pipeline;
     };
+    const auto create = [&](FrameStep step, std::span<const uint32_t> fragment, uint32_t push_bytes)
+    { return createAt(passes.filterPlace(step), layouts.post.get(), fragment, push_bytes); };
     PostPass pass;
+    if (passes.has(ShadedOutput::surfaces_on_tile) && hasSubpasses(passes.way()))
+    {
+        const DrawPlace place = passes.place(ShadedOutput::surfaces_on_tile, FrameStep::final_pass);
+        HEARTH_ASSIGN_OR_RETURN(
+            pass.final_on_tile_,
+            createAt(place, layouts.post_input.get(), shaders::final_tile_frag, sizeof(shared::FinalPush)));
+    }
     HEARTH_ASSIGN_OR_RETURN(
         pass.exposure_, create(FrameStep::exposure, shaders::exposure_frag, sizeof(shared::ExposurePush)));
     HEARTH_ASSIGN_OR_RETURN(
@@ -95,7 +103,8 @@ void PostPass::recordUp(const Device& device, VkCommandBuffer commands, const Po
 }
 
 void PostPass::recordFinal(const Device& device, VkCommandBuffer commands, const PostTargets& targets,
-                           const PostSettings& settings, VkExtent2D output, bool shows_data) const
+                           const PostSettings& settings, VkExtent2D output, bool shows_data,
+                           bool on_tile) const
 {
     const PhotoFilter& filter = settings.photo_filter;
     const shared::FinalPush push{.width = static_cast<float>(output.width),
@@ -108,6 +117,8 @@ void PostPass::recordFinal(const Device& device, VkCommandBuffer commands, const
                                  .bloom_strength = settings.bloom.strength,
                                  .adds_bloom = settings.bloom.mode == BloomMode::add ? 1u : 0u,
                                  .shows_data = shows_data ? 1u : 0u};
+    if (on_tile)
+        return draw(device, commands, final_on_tile_, targets.inputSet(), push);
     const bool blooms = !shows_data && settings.bloom.strength > 0;
     const bool adapts = !shows_data && settings.automatic_exposure.has_value();
     draw(device, commands, final_[blooms ? 1 : 0][adapts ? 1 : 0], targets.set(FrameResource::color), push);

@@ -28,8 +28,9 @@ public:
                   uint32_t level) const;
     /// output      size of the finished image
     /// shows_data  the frame has a debug view: nothing but its size changes
+    /// on_tile     the pixel's own value is finished, in the render pass that has made it
     void recordFinal(const Device& device, VkCommandBuffer commands, const PostTargets& targets,
-                     const PostSettings& settings, VkExtent2D output, bool shows_data) const;
+                     const PostSettings& settings, VkExtent2D output, bool shows_data, bool on_tile) const;
 
 private:
     struct Pipeline
@@ -42,7 +43,8 @@ private:
                      VkDescriptorSet set, const Push& push);
 
     Pipeline exposure_, down_, up_;
-    Pipeline final_[2][2]; ///< [with bloom][with automatic exposure]
+    Pipeline final_[2][2];   ///< [with bloom][with automatic exposure]
+    Pipeline final_on_tile_; ///< of LightPath::surfaces_on_tile, if passes have it
 };
 
 } // namespace hearth::gpu

@@ -20,24 +20,32 @@ size_t numberFrom(FrameResource resource, FrameResource first)
 
 Result<PostTargets> PostTargets::create(const Device& device, const FramePasses& passes,
                                         const DrawLayouts& layouts, MemoryArena& arena, VkExtent2D extent,
-                                        bool may_bloom, bool keeps_radiance)
+                                        const PostUses& uses)
 {
     PostTargets targets;
-    HEARTH_TRY(
-        targets.createImages(device, arena, passes.radianceFormat(), extent, may_bloom, keeps_radiance));
-    HEARTH_TRY(targets.createSets(device, layouts));
+    HEARTH_TRY(targets.createImages(device, arena, passes.radianceFormat(), extent, uses));
+    HEARTH_TRY(targets.createSets(device, layouts, uses));
     return targets;
 }
 
 Status PostTargets::createImages(const Device& device, MemoryArena& arena, VkFormat format, VkExtent2D extent,
-                                 bool may_bloom, bool keeps_radiance)
+                                 const PostUses& uses)
 {
     constexpr VkImageUsageFlags kUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT;
     HEARTH_ASSIGN_OR_RETURN(sampler_, createClampingSampler(device, VK_FILTER_LINEAR));
-    const VkImageUsageFlags copied = keeps_radiance ? VkImageUsageFlags{VK_IMAGE_USAGE_TRANSFER_SRC_BIT} : 0;
+    const VkImageUsageFlags copied =
+        uses.keeps_radiance ? VkImageUsageFlags{VK_IMAGE_USAGE_TRANSFER_SRC_BIT} : 0;
+    const VkImageUsageFlags input =
+        uses.is_input ? VkImageUsageFlags{VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT} : 0;
+    constexpr VkImageUsageFlags kOnTile =
+        VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSIENT_ATTACHMENT_BIT;
     HEARTH_ASSIGN_OR_RETURN(
-        radiance_, arena.createImage({.format = format, .extent = extent, .usage = kUsage | copied}));
-    if (!may_bloom)
+        radiance_,
+        arena.createImage({.format = format,
+                           .extent = extent,
+                           .usage = input | (uses.leaves_tile ? kUsage | copied : kOnTile),
+                           .kind = uses.leaves_tile ? MemoryKind::device : MemoryKind::transient}));
+    if (!uses.may_bloom)
         return success();
     for (uint32_t level = 1; level <= shared::kBloomLevels; ++level)
     {
@@ -60,11 +68,19 @@ Status PostTargets::createImages(const Device& device, MemoryArena& arena, VkFor
     return success();
 }
 
-Status PostTargets::createSets(const Device& device, const DrawLayouts& layouts)
+Status PostTargets::createSets(const Device& device, const DrawLayouts& layouts, const PostUses& uses)
 {
     const auto kSets = static_cast<uint32_t>(down_sets_.size() + up_sets_.size() + exposure_sets_.size() +
                                              final_sets_.size());
-    HEARTH_ASSIGN_OR_RETURN(pool_, createDescriptorPool(device, kSets, {.textures = 3 * kSets}));
+    HEARTH_ASSIGN_OR_RETURN(pool_,
+                            createDescriptorPool(device, kSets + 1, {.textures = 3 * kSets, .inputs = 1}));
+    if (uses.is_input)
+    {
+        HEARTH_ASSIGN_OR_RETURN(input_set_, allocateSet(device, pool_.get(), layouts.post_input.get()));
+        DescriptorWriter(input_set_).input(shared::kPostRadiance, radiance_.view.get()).write(device);
+    }
+    if (!uses.leaves_tile)
+        return success();
     // some drivers look at all descriptors of a set: those that a step does not read have the frame
     const auto create = [&](VkDescriptorSet& set, const Image& source, const Image& bloom,
                             const Image& exposure) -> Status

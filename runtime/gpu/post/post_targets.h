@@ -11,17 +11,24 @@
 namespace hearth::gpu
 {
 
+/// Uses of the images of frames with a final pass.
+struct PostUses
+{
+    bool leaves_tile = true;     ///< the linear frame does, and frames may have bloom or another size
+    bool is_input = false;       ///< the final pass may read the pixel's own value
+    bool may_bloom = false;      ///< or have automatic exposure: 2.7 texels for 4 pixels
+    bool keeps_radiance = false; ///< the images can be copied
+};
+
 /// Part of FrameTargets.
 class PostTargets
 {
 public:
-    /// arena           outlives the targets
-    /// may_bloom       frames may have bloom or automatic exposure: 2.7 texels for 4 pixels
-    /// keeps_radiance  the images can be copied
+    /// arena  outlives the targets
     /// errors: device_failed.
     static Result<PostTargets> create(const Device& device, const FramePasses& passes,
                                       const DrawLayouts& layouts, MemoryArena& arena, VkExtent2D extent,
-                                      bool may_bloom, bool keeps_radiance);
+                                      const PostUses& uses);
 
     const Image& radiance() const { return image(FrameResource::radiance); }
     bool mayBloom() const { return image(FrameResource::exposure).view.get() != VK_NULL_HANDLE; }
@@ -34,6 +41,8 @@ public:
 
     /// Set of a step that draws to a resource; the final pass draws to `color`.
     VkDescriptorSet set(FrameResource target) const;
+    /// Set of a final pass that reads the pixel's own value; with PostUses::is_input.
+    VkDescriptorSet inputSet() const { return input_set_; }
 
     /// Begin a frame. Records the first layouts of images that it reads and no frame has drawn to.
     void beginFrame(const Device& device, VkCommandBuffer commands, bool blooms, bool adapts_exposure);
@@ -45,8 +54,8 @@ public:
 private:
     PostTargets() = default;
     Status createImages(const Device& device, MemoryArena& arena, VkFormat format, VkExtent2D extent,
-                        bool may_bloom, bool keeps_radiance);
-    Status createSets(const Device& device, const DrawLayouts& layouts);
+                        const PostUses& uses);
+    Status createSets(const Device& device, const DrawLayouts& layouts, const PostUses& uses);
 
     static constexpr size_t kLevels = shared::kBloomLevels;
 
@@ -60,6 +69,7 @@ private:
     std::array<VkDescriptorSet, kLevels - 1> up_sets_{};
     std::array<VkDescriptorSet, 2> exposure_sets_{}; ///< [exposure_]
     std::array<VkDescriptorSet, 2> final_sets_{};    ///< [exposure_]
+    VkDescriptorSet input_set_ = VK_NULL_HANDLE;
     uint32_t exposure_ = 0;
     bool has_layouts_ = false;
     bool had_light_ = false, had_exposure_ = false; ///< the frame before

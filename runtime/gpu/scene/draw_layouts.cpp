@@ -62,6 +62,18 @@ ShadingBindings shadingBindings(VkDescriptorType visibility)
     return bindings;
 }
 
+std::vector<SetBinding> litBindings(VkDescriptorType image)
+{
+    // volumes of lights read them too
+    return {uniformBinding(shared::kSceneFrame, kVertexStage | kFragmentStage),
+            storageBinding(shared::kSceneLighting, kVertexStage | kFragmentStage),
+            uniformBinding(shared::kSceneShadows, kFragmentStage),
+            textureBinding(shared::kSceneShadowMaps, kFragmentStage),
+            textureBinding(shared::kSceneReflectance, kFragmentStage),
+            {shared::kAttachmentSurfaces, image, kFragmentStage},
+            {shared::kAttachmentDepth, VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, kFragmentStage}};
+}
+
 Status DrawLayouts::createShadingSets(const Device& device, const ShadingDescriptors& descriptors)
 {
     const ShadingBindings bindings = shadingBindings(descriptors.visibility);
@@ -69,6 +81,8 @@ Status DrawLayouts::createShadingSets(const Device& device, const ShadingDescrip
     HEARTH_ASSIGN_OR_RETURN(material, createSetLayout(device, bindings.material));
     HEARTH_ASSIGN_OR_RETURN(attachments, createSetLayout(device, bindings.attachments));
     HEARTH_ASSIGN_OR_RETURN(cluster_view, createSetLayout(device, bindings.cluster_views));
+    image_type = descriptors.visibility;
+    HEARTH_ASSIGN_OR_RETURN(lit, createSetLayout(device, litBindings(image_type)));
     const SetBinding bin_bindings[] = {storageBinding(shared::kBinsDraws, kVertexStage)};
     HEARTH_ASSIGN_OR_RETURN(bins, createSetLayout(device, bin_bindings));
     if (!descriptors.one_set)
@@ -102,6 +116,9 @@ Status DrawLayouts::createFrameSets(const Device& device)
                                         textureBinding(shared::kPostBloom, kFragmentStage),
                                         textureBinding(shared::kPostExposure, kFragmentStage)};
     HEARTH_ASSIGN_OR_RETURN(post, createSetLayout(device, post_bindings));
+    const SetBinding post_inputs[] = {
+        {shared::kPostRadiance, VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, kFragmentStage}};
+    HEARTH_ASSIGN_OR_RETURN(post_input, createSetLayout(device, post_inputs));
     return success();
 }
 
@@ -153,6 +170,8 @@ Status DrawLayouts::createPipelineLayouts(const Device& device)
     }
     HEARTH_ASSIGN_OR_RETURN(shading, createShading(shading_sets));
     HEARTH_ASSIGN_OR_RETURN(clusters, createShading(cluster_sets));
+    const NumberedSet lit_sets[] = {{shared::kSetScene, lit.get()}};
+    HEARTH_ASSIGN_OR_RETURN(lit_surfaces, createPipelineLayout(device, lit_sets, 0, 0));
     HEARTH_ASSIGN_OR_RETURN(brick_views, createShading({{shared::kSetBricks, bricks.get()}}));
     return success();
 }

@@ -49,28 +49,37 @@ struct ShadingBindings
 };
 ShadingBindings shadingBindings(VkDescriptorType visibility);
 
+/// Return the bindings of pipelines that light stored surfaces: some of the scene, then kLitImages images.
+/// image  type of the stored surfaces; the depth is an input attachment
+std::vector<SetBinding> litBindings(VkDescriptorType image);
+inline constexpr size_t kLitImages = 2;
+
 struct DrawLayouts
 {
-    UniqueSetLayout scene;            ///< shared::kScene*
-    UniqueSetLayout material;         ///< shared::kMaterialBlock, kMaterialTextures, kMaterialLayers
-    UniqueSetLayout bins;             ///< shared::kBinsDraws
-    UniqueSetLayout attachments;      ///< shared::kAttachment*
-    UniqueSetLayout occlusion;        ///< shared::kOcclusion*: culling and pyramid passes
-    UniqueSetLayout tiles;            ///< shared::kTiles*: material-tiles pass
-    UniqueSetLayout cluster_view;     ///< kClusterViewTables
-    UniqueSetLayout joined_shading;   ///< scene, material, attachments; with ShadingDescriptors::one_set
-    UniqueSetLayout joined_clusters;  ///< cluster_view and visibility buffer; with the same
-    UniqueSetLayout lights;           ///< shared::kLights*: passes that list or count lights
-    UniqueSetLayout pixels;           ///< shared::kPixels*: those of them that go over pixels
-    UniqueSetLayout bricks;           ///< shared::kBricks*
-    UniqueSetLayout fresh_light;      ///< shared::kFreshLight*
-    UniqueSetLayout gather_point;     ///< shared::kGatherPoint*
-    UniqueSetLayout gather;           ///< shared::kGatherView to kGatherTexels
-    UniqueSetLayout post;             ///< shared::kPost*
-    UniquePipelineLayout visibility;  ///< scene, material, bins; shared::BinPush
-    UniquePipelineLayout shading;     ///< scene, material, attachments; shared::ShadingPush, as the next two
-    UniquePipelineLayout clusters;    ///< cluster_view, attachments: debug views of clusters
-    UniquePipelineLayout brick_views; ///< bricks: debug views of bricks
+    UniqueSetLayout scene;             ///< shared::kScene*
+    UniqueSetLayout material;          ///< shared::kMaterialBlock, kMaterialTextures, kMaterialLayers
+    UniqueSetLayout bins;              ///< shared::kBinsDraws
+    UniqueSetLayout attachments;       ///< shared::kAttachment*
+    UniqueSetLayout occlusion;         ///< shared::kOcclusion*: culling and pyramid passes
+    UniqueSetLayout tiles;             ///< shared::kTiles*: material-tiles pass
+    UniqueSetLayout cluster_view;      ///< kClusterViewTables
+    UniqueSetLayout joined_shading;    ///< scene, material, attachments; with ShadingDescriptors::one_set
+    UniqueSetLayout joined_clusters;   ///< cluster_view and visibility buffer; with the same
+    UniqueSetLayout lit;               ///< litBindings
+    UniqueSetLayout lights;            ///< shared::kLights*: passes that list or count lights
+    UniqueSetLayout pixels;            ///< shared::kPixels*: those of them that go over pixels
+    UniqueSetLayout bricks;            ///< shared::kBricks*
+    UniqueSetLayout fresh_light;       ///< shared::kFreshLight*
+    UniqueSetLayout gather_point;      ///< shared::kGatherPoint*
+    UniqueSetLayout gather;            ///< shared::kGatherView to kGatherTexels
+    UniqueSetLayout post;              ///< shared::kPost*
+    UniqueSetLayout post_input;        ///< shared::kPostRadiance as an input attachment
+    UniquePipelineLayout visibility;   ///< scene, material, bins; shared::BinPush
+    UniquePipelineLayout shading;      ///< scene, material, attachments; shared::ShadingPush, as the next two
+    UniquePipelineLayout clusters;     ///< cluster_view, attachments: debug views of clusters
+    UniquePipelineLayout brick_views;  ///< bricks: debug views of bricks
+    UniquePipelineLayout lit_surfaces; ///< lit: lights of stored surfaces
+    VkDescriptorType image_type = VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT; ///< of the frame's images
 
     static Result<DrawLayouts> create(const Device& device, const ShadingDescriptors& descriptors);
 

@@ -72,4 +72,41 @@ void JoinedSets::setAttachments(const Device& device, uint32_t frame, const Atta
     sets.targets = attachments.targets;
 }
 
+Result<std::unique_ptr<LitSets>> LitSets::create(const Device& device, const DrawLayouts& layouts,
+                                                 const Scene& scene)
+{
+    auto sets = std::make_unique<LitSets>();
+    sets->has_subpasses_ = layouts.image_type == VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT;
+    const std::vector<SetBinding> bindings = litBindings(layouts.image_type);
+    const std::span copied = std::span(bindings).first(bindings.size() - kLitImages);
+    const auto frames = static_cast<uint32_t>(scene.frames.size());
+    DescriptorPoolSizes sizes;
+    addSizes(bindings, frames, sizes);
+    HEARTH_ASSIGN_OR_RETURN(sets->pool_, createDescriptorPool(device, frames, sizes));
+    DescriptorCopier copier;
+    for (const SceneFrame& frame : scene.frames)
+    {
+        Frame& added = sets->frames_.emplace_back();
+        HEARTH_ASSIGN_OR_RETURN(added.set, allocateSet(device, sets->pool_.get(), layouts.lit.get()));
+        copier.copy(frame.main.draw_set, added.set, copied);
+    }
+    copier.write(device);
+    return sets;
+}
+
+void LitSets::setImages(const Device& device, uint32_t frame, const LitImages& images)
+{
+    Frame& held = frames_[frame];
+    if (held.targets.lock() == images.targets)
+        return;
+    DescriptorWriter writer(held.set);
+    writer.input(shared::kAttachmentDepth, images.depth, kReadOnlyDepth);
+    if (has_subpasses_)
+        writer.input(shared::kAttachmentSurfaces, images.surfaces);
+    else
+        writer.texture(shared::kAttachmentSurfaces, images.surfaces, images.sampler);
+    writer.write(device);
+    held.targets = images.targets;
+}
+
 } // namespace hearth::gpu

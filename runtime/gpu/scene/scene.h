@@ -106,9 +106,8 @@ struct SceneMaterial
 {
     VkDescriptorSet set = VK_NULL_HANDLE;
     ShadingVariant variant;
-    /// [method][1]: of frames with a final pass, if the renderer has them. Empty unless the method is
-    /// prepared.
-    std::array<std::array<ShadingPipelines, 2>, kLightMethodCount> pipelines;
+    /// [LightMethod][ShadedOutput]; empty unless the method is prepared.
+    std::array<std::array<ShadingPipelines, kShadedOutputCount>, kLightMethodCount> pipelines;
 };
 
 /// Scene on the device. Submit its frames to one queue, in the order in which they were recorded.
@@ -129,6 +128,7 @@ struct Scene
     UniqueDescriptorPool pool;
     std::vector<SceneMaterial> materials;    ///< rows of the material table
     std::unique_ptr<JoinedSets> joined_sets; ///< with ShadingDescriptors::one_set only
+    std::unique_ptr<LitSets> lit_sets;       ///< once a method that stores surfaces is prepared
 
     std::unique_ptr<SceneStream> stream;             ///< streamed scenes only
     std::unique_ptr<SceneDeformation> deformation;   ///< scenes with deformed meshes only

@@ -22,7 +22,7 @@ constexpr RequiredLimit kLimits[] = {
      "shading: nine textures, tables, shadow maps, gathered light, visibility buffer"},
     {HEARTH_LIMIT(maxPerStageDescriptorSampledImages), 15, "sampled images in a stage", "as the samplers"},
     {HEARTH_LIMIT(maxPerStageDescriptorStorageImages), 1, "storage images in a stage", "gathered light"},
-    {HEARTH_LIMIT(maxPerStageDescriptorInputAttachments), 1, "input attachments in a stage",
+    {HEARTH_LIMIT(maxPerStageDescriptorInputAttachments), 2, "input attachments in a stage",
      "shading in the render pass of the visibility buffer"},
     {HEARTH_LIMIT(maxPerStageResources), 28, "resources in a stage",
      "shading: the above and its colour attachment"},

@@ -43,12 +43,38 @@ void setStencil(Stencil stencil, VkPipelineDepthStencilStateCreateInfo& state)
         return;
     state.stencilTestEnable = VK_TRUE;
     VkStencilOpState& front = state.front;
-    front.failOp = front.depthFailOp = VK_STENCIL_OP_KEEP;
-    front.passOp = stencil == Stencil::mark ? VK_STENCIL_OP_REPLACE : VK_STENCIL_OP_KEEP;
-    front.compareOp = stencil == Stencil::mark ? VK_COMPARE_OP_ALWAYS : VK_COMPARE_OP_EQUAL;
-    front.compareMask = 0xFF;
-    front.reference = 0xFF;
+    front = {.failOp = VK_STENCIL_OP_KEEP,
+             .passOp = VK_STENCIL_OP_KEEP,
+             .depthFailOp = VK_STENCIL_OP_KEEP,
+             .compareOp = VK_COMPARE_OP_ALWAYS,
+             .compareMask = 0xFF,
+             .writeMask = 0xFF,
+             .reference = 0};
+    switch (stencil)
+    {
+    case Stencil::mark:
+        front.passOp = VK_STENCIL_OP_REPLACE;
+        front.reference = 0xFF;
+        break;
+    case Stencil::test:
+        front.compareOp = VK_COMPARE_OP_EQUAL;
+        break;
+    case Stencil::zero:
+        front.passOp = VK_STENCIL_OP_ZERO;
+        break;
+    case Stencil::take:
+        front.compareOp = VK_COMPARE_OP_NOT_EQUAL;
+        front.passOp = VK_STENCIL_OP_ZERO;
+        break;
+    case Stencil::enclose:
+        front.depthFailOp = VK_STENCIL_OP_DECREMENT_AND_WRAP;
+        break;
+    case Stencil::none:
+        break;
+    }
     state.back = front;
+    if (stencil == Stencil::enclose)
+        state.back.depthFailOp = VK_STENCIL_OP_INCREMENT_AND_WRAP;
 }
 
 VkPipelineShaderStageCreateInfo stageInfo(VkShaderStageFlagBits stage, VkShaderModule module,
@@ -121,11 +147,15 @@ Result<ComputePipeline> createComputePipeline(const Device& device, std::span<co
 Result<UniquePipeline> createGraphicsPipeline(const Device& device, const GraphicsDescription& description)
 {
     HEARTH_ASSIGN_OR_RETURN(const UniqueShaderModule vertex, createModule(device, description.vertex));
-    HEARTH_ASSIGN_OR_RETURN(const UniqueShaderModule fragment, createModule(device, description.fragment));
+    UniqueShaderModule fragment;
     const ConstantValues constants(description.constants);
-    const VkPipelineShaderStageCreateInfo stages[] = {
-        stageInfo(VK_SHADER_STAGE_VERTEX_BIT, vertex.get(), constants.info()),
-        stageInfo(VK_SHADER_STAGE_FRAGMENT_BIT, fragment.get(), constants.info())};
+    std::vector<VkPipelineShaderStageCreateInfo> stages = {
+        stageInfo(VK_SHADER_STAGE_VERTEX_BIT, vertex.get(), constants.info())};
+    if (!description.fragment.empty())
+    {
+        HEARTH_ASSIGN_OR_RETURN(fragment, createModule(device, description.fragment));
+        stages.push_back(stageInfo(VK_SHADER_STAGE_FRAGMENT_BIT, fragment.get(), constants.info()));
+    }
     VkPipelineVertexInputStateCreateInfo vertex_input{};
     vertex_input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
     VkPipelineInputAssemblyStateCreateInfo assembly{};
@@ -152,21 +182,23 @@ Result<UniquePipeline> createGraphicsPipeline(const Device& device, const Graphi
     depth.depthWriteEnable = description.depth_write ? VK_TRUE : VK_FALSE;
     depth.depthCompareOp = description.depth_compare;
     setStencil(description.stencil, depth);
-    VkPipelineColorBlendAttachmentState blend{};
-    blend.blendEnable = description.add ? VK_TRUE : VK_FALSE;
-    blend.srcColorBlendFactor = blend.dstColorBlendFactor = VK_BLEND_FACTOR_ONE;
-    blend.srcAlphaBlendFactor = blend.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
-    if (description.color_write)
-        blend.colorWriteMask = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
-                               VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
     VkPipelineColorBlendStateCreateInfo color{};
     color.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
-    color.attachmentCount = description.color ? 1 : 0;
-    color.pAttachments = &blend;
+    constexpr VkColorComponentFlags kAllComponents = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
+                                                     VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
+    VkPipelineColorBlendAttachmentState blends[2] = {};
+    blends[0].blendEnable = description.add ? VK_TRUE : VK_FALSE;
+    blends[0].srcColorBlendFactor = blends[0].dstColorBlendFactor = VK_BLEND_FACTOR_ONE;
+    blends[0].srcAlphaBlendFactor = blends[0].dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+    blends[0].colorWriteMask = description.color_write ? kAllComponents : 0;
+    blends[1] = blends[0]; // differences are a feature of devices
+    color.attachmentCount = (description.color ? 1 : 0) + (description.second_color ? 1 : 0);
+    color.pAttachments = blends;
     std::vector<VkDynamicState> dynamic_states = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
-    if (description.stencil != Stencil::none)
-        dynamic_states.push_back(description.stencil == Stencil::mark ? VK_DYNAMIC_STATE_STENCIL_WRITE_MASK
-                                                                      : VK_DYNAMIC_STATE_STENCIL_REFERENCE);
+    if (description.stencil == Stencil::mark)
+        dynamic_states.push_back(VK_DYNAMIC_STATE_STENCIL_WRITE_MASK);
+    if (description.stencil == Stencil::test)
+        dynamic_states.push_back(VK_DYNAMIC_STATE_STENCIL_REFERENCE);
     VkPipelineDynamicStateCreateInfo dynamic{};
     dynamic.sType = VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO;
     dynamic.dynamicStateCount = static_cast<uint32_t>(dynamic_states.size());
@@ -174,8 +206,8 @@ Result<UniquePipeline> createGraphicsPipeline(const Device& device, const Graphi
 
     VkGraphicsPipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
-    info.stageCount = 2;
-    info.pStages = stages;
+    info.stageCount = static_cast<uint32_t>(stages.size());
+    info.pStages = stages.data();
     info.pVertexInputState = &vertex_input;
     info.pInputAssemblyState = &assembly;
     info.pViewportState = &viewport;
@@ -220,10 +252,9 @@ DescriptorWriter& DescriptorWriter::texture(uint32_t binding, VkImageView view, 
     return *this;
 }
 
-DescriptorWriter& DescriptorWriter::input(uint32_t binding, VkImageView view)
+DescriptorWriter& DescriptorWriter::input(uint32_t binding, VkImageView view, VkImageLayout layout)
 {
-    add(binding, VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, {},
-        {VK_NULL_HANDLE, view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL});
+    add(binding, VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, {}, {VK_NULL_HANDLE, view, layout});
     return *this;
 }
 

@@ -61,12 +61,17 @@ enum class Stencil : uint8_t
     none,
     mark, ///< sets the bits of the dynamic write mask
     test, ///< draws where the stencil is the dynamic reference
+    zero, ///< sets it to 0
+    /// Counts back faces less front faces behind the depth: not 0 at depths in a closed solid around which
+    /// no two faces of a kind overlap, wherever the eye is.
+    enclose,
+    take, ///< draws where it is not 0, and sets it to 0
 };
 
 struct GraphicsDescription
 {
     std::span<const uint32_t> vertex;
-    std::span<const uint32_t> fragment;
+    std::span<const uint32_t> fragment; ///< empty: depth and stencil alone
     VkPipelineLayout layout;
     VkRenderPass render_pass;
     uint32_t subpass;
@@ -76,13 +81,16 @@ struct GraphicsDescription
     bool depth_write;
     bool color; ///< the subpass has a colour target
     bool color_write = true;
-    bool add = false; ///< blend additively into the colour target
+    bool second_color = false; ///< it has another one, which is written with the first; not if they blend
+    bool add = false;          ///< blend additively into the colour target
     Stencil stencil = Stencil::none;
     std::span<const uint32_t> constants{}; ///< value of specialization constant i, for both stages
 };
-/// Create a graphics pipeline: triangles without vertex buffers; dynamic viewport and scissor; at most one
-/// colour target.
+/// Create a graphics pipeline: triangles without vertex buffers; dynamic viewport and scissor.
 Result<UniquePipeline> createGraphicsPipeline(const Device& device, const GraphicsDescription& description);
+
+/// Layout of a depth that is read while its stencil is written.
+inline constexpr VkImageLayout kReadOnlyDepth = VK_IMAGE_LAYOUT_DEPTH_READ_ONLY_STENCIL_ATTACHMENT_OPTIMAL;
 
 /// Collects writes to one descriptor set.
 class DescriptorWriter
@@ -93,7 +101,8 @@ public:
                               VkDeviceSize range = VK_WHOLE_SIZE);
     DescriptorWriter& storage(uint32_t binding, const Buffer& buffer);
     DescriptorWriter& texture(uint32_t binding, VkImageView view, VkSampler sampler);
-    DescriptorWriter& input(uint32_t binding, VkImageView view);
+    DescriptorWriter& input(uint32_t binding, VkImageView view,
+                            VkImageLayout layout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL);
     /// Write a storage image in VK_IMAGE_LAYOUT_GENERAL.
     DescriptorWriter& image(uint32_t binding, VkImageView view);
     void write(const Device& device);

@@ -1,6 +1,7 @@
 // Encoding of the gathered light (GI) of a tile for shading: two texels of 128 bits. Needs
 // formats/gpu_shared/gather.h and formats/gpu_shared/brick_codes.h.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/shaders/scene/directions.glsl"
 
 struct GatherTexels
 {
@@ -8,21 +9,6 @@ struct GatherTexels
     // m1 / m0 along the two axes of gatherAxes; the narrow and the wide specular lobe as R11G11B10F
     uvec4 lobes;
 };
-
-vec2 gatherOctahedral(vec3 n)
-{
-    n /= abs(n.x) + abs(n.y) + abs(n.z);
-    return n.z >= 0.0 ? n.xy : (1.0 - abs(n.yx)) * vec2(n.x < 0.0 ? -1.0 : 1.0, n.y < 0.0 ? -1.0 : 1.0);
-}
-
-vec3 gatherNormal(uint code)
-{
-    vec2 p = unpackSnorm2x16(code);
-    vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
-    if (n.z < 0.0)
-        n.xy = (1.0 - abs(p.yx)) * vec2(p.x < 0.0 ? -1.0 : 1.0, p.y < 0.0 ? -1.0 : 1.0);
-    return normalize(n);
-}
 
 // Compute two unit vectors across a normal. T. Duff et al., "Building an orthonormal basis, revisited", 2017.
 void gatherAxes(vec3 n, out vec3 first, out vec3 second)
@@ -53,8 +39,8 @@ mediump vec3 decodeShares(uint code)
 GatherTexels encodeGatherTexels(GatherPoint point)
 {
     const float most = 65000.0; // halves have infinities
-    uint normal_code = packSnorm2x16(gatherOctahedral(point.normal));
-    vec3 normal = gatherNormal(normal_code);
+    uint normal_code = packSnorm2x16(octahedralPoint(point.normal));
+    vec3 normal = octahedralDirection(unpackSnorm2x16(normal_code));
     vec3 first, second;
     gatherAxes(normal, first, second);
     vec4 mean = min(vec4(point.mean, point.sky), vec4(most));

@@ -39,7 +39,7 @@ GiSample sampleGi(vec2 pixel, vec3 position, vec3 normal, mediump float roughnes
         if (code.w == kNoPlane)
             continue;
         vec2 bilinear = mix(1.0 - (at - low), at - low, corner);
-        vec3 point_normal = gatherNormal(code.z);
+        vec3 point_normal = octahedralDirection(unpackSnorm2x16(code.z));
         float alike = gatherSimilarity(point_normal, uintBitsToFloat(code.w), position, normal, reach);
         // where no tile is like the pixel the nearest ones count, rather than nothing
         float weight = (bilinear.x * bilinear.y + 1e-3) * (alike + 1e-3);

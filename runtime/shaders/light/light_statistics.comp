@@ -5,6 +5,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/decisions.h"
+#include "formats/gpu_shared/light_volume.h"
 #include "formats/gpu_shared/shading.h"
 #include "runtime/shaders/scene/scene.glsl"
 #include "runtime/shaders/scene/material.glsl"
@@ -26,6 +27,20 @@ vec3 reflectedShare(Light light, vec3 from_lamp)
     return vec3(0.0);
 }
 
+// 1 if the light is not 0 at a point relative to the eye.
+uint reaches(Light light, vec3 position)
+{
+    vec3 to_light;
+    return any(greaterThan(lightIrradiance(light, position, to_light), vec3(0.0))) ? 1u : 0u;
+}
+
+bool isInVolume(Light light, vec3 position)
+{
+    vec3 place = vec3(dot(lighting.grid.right, position), dot(lighting.grid.down, position),
+                      dot(lighting.grid.forward, position));
+    return isInLightVolume(makeCellLight(lighting.grid, light), place);
+}
+
 // Add to a number of two words.
 void add(uint word, uint count)
 {
@@ -44,17 +59,26 @@ void main()
         return;
     vec2 place = vec2(pixel) + 0.5;
     Surface s = resolveSurface(id, place);
+    uint first = lighting.first_list_word;
     LightListing listing = findLights(s.position, place, s.slot_number);
+    uint evaluated = listing.count;
     uint reaching = 0u;
     for (uint i = 0u; i < listing.count; ++i)
+        reaching += reaches(lights[listedLight(listing, i)], s.position);
+    if (kLightList == kLightListVolumes)
     {
-        vec3 to_light;
-        vec3 irradiance = lightIrradiance(lights[listedLight(listing, i)], s.position, to_light);
-        reaching += any(greaterThan(irradiance, vec3(0.0))) ? 1u : 0u;
+        uint ranged = light_words[first + kCountRanged];
+        for (uint i = 0u; i < ranged; ++i)
+        {
+            uint row = light_words[first + kLightCountWords + listing.unranged_count + i];
+            if (!isInVolume(lights[row], s.position))
+                continue;
+            ++evaluated;
+            reaching += reaches(lights[row], s.position);
+        }
     }
-    uint first = lighting.first_list_word;
     atomicAdd(light_counts[first + kCountPixels], 1u);
-    atomicMax(light_counts[first + kCountLongest], listing.count);
-    add(first + kCountEvaluated, listing.count);
+    atomicMax(light_counts[first + kCountLongest], evaluated);
+    add(first + kCountEvaluated, evaluated);
     add(first + kCountReaching, reaching);
 }

@@ -1,10 +1,15 @@
-// Final pass: finishes the linear colours of a frame, at any size.
+// Final pass: finishes the linear colours of a frame, at any size. Shaders that include it define
+// HEARTH_ON_TILE if they finish the pixel's own colour.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/push_constants.h"
 #include "runtime/shaders/shade/tonemap.glsl"
 
+#ifdef HEARTH_ON_TILE
+layout(input_attachment_index = kInputRadiance, set = kSetPost, binding = kPostRadiance) uniform subpassInput radiance;
+#else
 layout(set = kSetPost, binding = kPostRadiance) uniform sampler2D radiance;
+#endif
 layout(push_constant) uniform Push { FinalPush push; };
 layout(location = 0) out vec4 out_color;
 

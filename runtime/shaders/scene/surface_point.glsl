@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/specialization.h"
 #include "formats/gpu_shared/visibility_cone.h"
+#include "runtime/shaders/scene/directions.glsl"
 
 layout(constant_id = kConstantTextures) const uint kTextures = 0u;
 layout(constant_id = kConstantUvSets) const uint kUvSets = 0u;
@@ -55,13 +56,6 @@ bool usesUvSet(uint set)
 // Visibility of an unoccluded sky on the side of the normal.
 VisibilityMoments openSky(mediump vec3 normal) { return VisibilityMoments(2.0 * kVisibilityPi, normal * kVisibilityPi); }
 
-// Return `v` normalized, or `fallback` if v is too short to have a direction.
-vec3 normalizeOr(vec3 v, vec3 fallback)
-{
-    float len2 = dot(v, v);
-    return len2 > 1e-30 ? v * inversesqrt(len2) : fallback;
-}
-
 // Compute tangent and bitangent (unit) from any vector along the tangent. side: -1 if the bitangent is
 // flipped.
 void completeFrame(vec3 normal, vec3 along, float side, out vec3 tangent, out vec3 bitangent)
@@ -84,9 +78,6 @@ vec4 sampleSurface(SurfaceUvs uvs, uint slot, sampler2D image)
 float clampRoughness(float roughness) { return clamp(roughness, 0.045, 1.0); }
 
 float surfaceRoughness(vec4 metallic_roughness) { return clampRoughness(material.roughness * metallic_roughness.g); }
-
-// Cosine between normal and eye, clamped as the BRDF needs it.
-float clampedCosine(vec3 normal, vec3 to_eye) { return clamp(abs(dot(normal, to_eye)), 1e-4, 1.0); }
 
 // Normal on the front side with a normal map applied: unit, world axes.
 // texel  of the map

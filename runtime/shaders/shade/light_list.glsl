@@ -36,7 +36,9 @@ LightListing findLights(vec3 position, vec2 pixel, uint slot)
     uint unranged_count = light_words[lighting.first_list_word + kCountUnranged];
     uint ranged = light_words[lighting.first_list_word + kCountRanged];
     LightListing listing = LightListing(unranged_count, unranged_count + ranged, 0u, false);
-    if (kLightList == kLightListFrame || ranged == 0u)
+    if (kLightList == kLightListVolumes)
+        listing.count = unranged_count;
+    if (kLightList == kLightListVolumes || kLightList == kLightListFrame || ranged == 0u)
         return listing;
     uint word = listWord(position, pixel, slot);
     uint count = lightCellCount(word);

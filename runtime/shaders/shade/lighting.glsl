@@ -11,6 +11,9 @@
 #include "runtime/shaders/shade/layers.glsl"
 #include "runtime/shaders/shade/light_irradiance.glsl"
 #include "runtime/shaders/shade/light_list.glsl"
+#ifdef HEARTH_STORES_SURFACES
+#include "runtime/shaders/shade/surface_words.glsl"
+#endif
 #include "runtime/shaders/shade/sky.glsl"
 #include "runtime/shaders/shade/shaded_color.glsl"
 #include "runtime/shaders/shade/sky_occlusion.glsl"
@@ -20,6 +23,22 @@ layout(constant_id = kConstantUnlit) const bool kUnlit = false;
 // Radiance towards the eye from everything except the lights. occlusion: value of the material's occlusion
 // texture.
 vec3 surroundingLight(SurfacePoint point, Shading shading, Layers layers, mediump float occlusion);
+
+// Radiance towards the eye from the lights.
+vec3 directLight(SurfacePoint point, Shading shading, Layers layers)
+{
+    vec3 radiance = vec3(0.0);
+    LightListing listing = findLights(point.position, gl_FragCoord.xy, point.slot);
+    for (uint i = 0u; i < listing.count; ++i)
+    {
+        uint row = listedLight(listing, i);
+        vec3 to_light;
+        vec3 irradiance = lightIrradiance(lights[row], point.position, to_light);
+        float share = lightVisibility(lights[row], point.position, point.flat_normal, point.error);
+        radiance += irradiance * layeredLight(shading, layers, to_light) * share;
+    }
+    return radiance;
+}
 
 vec3 lit(SurfacePoint point, SurfaceUvs uvs, mediump vec3 base)
 {
@@ -37,15 +56,13 @@ vec3 lit(SurfacePoint point, SurfaceUvs uvs, mediump vec3 base)
     Layers layers = surfaceLayers(point, uvs, shading);
 
     vec3 radiance = vec3(0.0);
-    LightListing listing = findLights(point.position, gl_FragCoord.xy, point.slot);
-    for (uint i = 0u; i < listing.count; ++i)
-    {
-        uint row = listedLight(listing, i);
-        vec3 to_light;
-        vec3 irradiance = lightIrradiance(lights[row], point.position, to_light);
-        float share = lightVisibility(lights[row], point.position, point.flat_normal, point.error);
-        radiance += irradiance * layeredLight(shading, layers, to_light) * share;
-    }
+#ifdef HEARTH_STORES_SURFACES
+    // layers do not fit into what is stored
+    if (kLayers == 0u)
+        out_surface = packSurface(LitSurface(normal, point.flat_normal, base, metallic, shading.roughness, point.error));
+    else
+#endif
+        radiance = directLight(point, shading, layers);
 
     mediump float occlusion_strength = material.occlusion_strength;
     mediump float occlusion = mix(1.0, sampleSurface(uvs, kTextureOcclusion, occlusion_texture).r, occlusion_strength);

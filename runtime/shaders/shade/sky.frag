@@ -1,32 +1,5 @@
-// Draws the background: pixels in which no surface is visible.
+// Draws the background: background.glsl.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "formats/gpu_shared/bindings.h"
-#include "runtime/shaders/scene/shading_push.glsl"
-#include "formats/gpu_shared/records.h"
-#include "formats/gpu_shared/shading.h"
-#include "formats/gpu_shared/specialization.h"
-#include "runtime/shaders/scene/visibility_input.glsl"
-#include "runtime/shaders/shade/shaded_color.glsl"
-
-layout(set = kSetScene, binding = kSceneFrame, std140) uniform Frame { FrameView view; };
-layout(set = kSetScene, binding = kSceneLighting, std140) readonly buffer LightingBlock { Lighting lighting; };
-#include "runtime/shaders/shade/sky.glsl"
-
-layout(constant_id = kConstantComparesMaterial) const bool kComparesMaterial = false;
-layout(early_fragment_tests) in;
-layout(location = 0) out vec4 out_color;
-
-void main()
-{
-    if (kComparesMaterial && loadVisibility() != kVisibilitySky)
-        discard;
-    vec2 ndc = gl_FragCoord.xy * 2.0 / vec2(view.width, view.height) - 1.0;
-    // the rows are orthogonal, so this is the direction with clip coordinates (ndc, 1)
-    vec3 x = view.clip_x.xyz;
-    vec3 y = view.clip_y.xyz;
-    vec3 direction = normalize(view.clip_w.xyz + x * (ndc.x / dot(x, x)) + y * (ndc.y / dot(y, y)));
-    vec3 color = push.debug_view == kViewFinal ? shadedColor(skyRadiance(sceneSky(), direction)) : linearFromSrgb(vec3(0.08));
-    out_color = vec4(color, 1.0);
-}
+#include "runtime/shaders/shade/background.glsl"

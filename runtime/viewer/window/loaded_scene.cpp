@@ -31,8 +31,6 @@ Result<std::unique_ptr<LoadedScene>> LoadedScene::load(VulkanHost& host, gpu::Re
             return success();
         }));
     loaded->scene_->staging.reset();
-    for (const Named<gpu::LightMethod>& method : lightMethodNames()) // the panel changes it at any time
-        HEARTH_TRY(renderer.prepareLightMethod(*loaded->scene_, method.value));
     HEARTH_ASSIGN_OR_RETURN(loaded->statistics_,
                             gpu::CullStatisticsPass::create(renderer.device(), *loaded->scene_));
     return loaded;

@@ -129,8 +129,9 @@ Status Viewer::open(const ViewOptions& options)
     HEARTH_ASSIGN_OR_RETURN(
         host_, VulkanHost::create(
                    {.device_name = options.device, .validate = options.validate, .window = &host_window}));
-    HEARTH_ASSIGN_OR_RETURN(renderer_,
-                            gpu::Renderer::create(host_->description(), rendererOptions(settings_.frame)));
+    gpu::RendererOptions renderer_options = rendererOptions(settings_.frame);
+    renderer_options.deferred = true; // the panel changes the light method at any time
+    HEARTH_ASSIGN_OR_RETURN(renderer_, gpu::Renderer::create(host_->description(), renderer_options));
     HEARTH_TRY(renderer_->prepareOverdraw());
     HEARTH_ASSIGN_OR_RETURN(vk_, loadWindowTable(host_->description()));
     const gpu::Device& device = renderer_->device();
@@ -233,6 +234,7 @@ Status Viewer::applySettings()
         camera_ = FlyCamera(cameras_[*settings_.camera].camera, camera_.speed());
     settings_.camera.reset();
     lookAtAsset();
+    HEARTH_TRY(prepareLightMethod());
     if (settings_.geometry_budget == scene_->geometryBudget())
         return success();
     // the present scene stays until the new one is ready
@@ -246,10 +248,23 @@ Status Viewer::applySettings()
     }
     HEARTH_TRY(frames_->waitForAll());
     scene_ = std::move(scene).value();
+    light_method_ = gpu::LightMethod::practical;
+    HEARTH_TRY(prepareLightMethod());
     lights_ = FrameLights();
     if (assets_.stage)
         assets_.stage->reset();
     return success();
+}
+
+/// Prepare the chosen light method, and targets for it.
+Status Viewer::prepareLightMethod()
+{
+    if (light_method_ == settings_.frame.light_method)
+        return success();
+    HEARTH_TRY(frames_->waitForAll());
+    light_method_ = settings_.frame.light_method;
+    resized_ = true;
+    return renderer_->prepareLightMethod(scene_->scene(), light_method_);
 }
 
 /// Go to the chosen asset, or to the whole scene, and set a fly speed that suits its size.
@@ -297,7 +312,8 @@ Status Viewer::resize()
                                                      {.gathers_light = scene_->scene().bricks != nullptr,
                                                       .may_bloom = frame.post.bloom.strength > 0 ||
                                                                    frame.post.automatic_exposure.has_value(),
-                                                      .output = extent}));
+                                                      .output = extent,
+                                                      .light_path = lightPath(frame)}));
     return success();
 }
 

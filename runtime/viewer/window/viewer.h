@@ -51,6 +51,7 @@ private:
     void handle(const SDL_Event& event);
     void handleKey(int32_t key);
     Status applySettings();
+    Status prepareLightMethod();
     void lookAtAsset();
     Status resize();
     Result<bool> drawFrame(bool panel, const gpu::Buffer* screenshot);
@@ -80,7 +81,8 @@ private:
     std::string problem_; ///< with the budget
     bool open_ = true;
     bool minimized_ = false;
-    bool resized_ = true;
+    bool resized_ = true; ///< the targets do not fit the window, or the frame
+    gpu::LightMethod light_method_ = gpu::LightMethod::practical; ///< that is prepared
     double frame_seconds_ = 0;
 
     // each needs the ones before it

@@ -50,7 +50,8 @@ std::map<std::string, uint32_t> constantIds()
             {"kComparesMaterial", shared::kConstantComparesMaterial},
             {"kFiltersShadows", shared::kConstantFiltersShadows},
             {"kLightList", shared::kConstantLightList},
-            {"kStored", shared::kConstantStored}};
+            {"kStored", shared::kConstantStored},
+            {"kReflects", shared::kConstantReflects}};
 }
 
 /// Not a GpuTest: that creates pipelines, and a driver may crash where a shader and a layout differ.
@@ -70,22 +71,26 @@ protected:
         {
             auto created = gpu::Renderer::create(recording, {.way = way, .post = gpu::PostSupport::packed});
             ASSERT_TRUE(created.ok());
-            gpu::Renderer& recorded = **created;
-            uploadRocks(recorded);
-            uploadDeformed(recorded);
-            uploadBricks(recorded, {});
-            uploadBricks(recorded, {.max_maps = 4});
-            ASSERT_TRUE(recorded.prepareOverdraw().ok());
-            // the stencil is the other test's
-            const auto by_id =
-                gpu::Renderer::create(recording, {.way = way, .materials = gpu::MaterialTest::id});
-            ASSERT_TRUE(by_id.ok());
+            uploadAll(**created);
+            ASSERT_TRUE((*created)->prepareOverdraw().ok());
+            // finds materials by id as well
+            auto deferred = gpu::Renderer::create(recording, {.way = way, .deferred = true});
+            ASSERT_TRUE(deferred.ok());
+            uploadAll(**deferred);
         }
         both_ = {{}, recordedPipelines(), sharedStructs(), constantIds()};
         for (const ListedShader& shader : listedShaders())
             both_.shaders.push_back({shader.name,
                                      {shader.words.begin(), shader.words.end()},
                                      reflectShader(readWords(shader.named_file))});
+    }
+
+    void uploadAll(gpu::Renderer& recorded)
+    {
+        uploadRocks(recorded);
+        uploadDeformed(recorded);
+        uploadBricks(recorded, {});
+        uploadBricks(recorded, {.max_maps = 4});
     }
 
     std::unique_ptr<gpu::Scene> uploadWith(gpu::Renderer& recorded, const formats::PackView& pack,
@@ -115,7 +120,8 @@ protected:
     static void prepareLights(gpu::Renderer& recorded, gpu::Scene& scene)
     {
         for (size_t method = 0; method < gpu::kLightMethodCount; ++method)
-            EXPECT_TRUE(recorded.prepareLightMethod(scene, static_cast<gpu::LightMethod>(method)).ok());
+            if (recorded.supports(static_cast<gpu::LightMethod>(method)))
+                EXPECT_TRUE(recorded.prepareLightMethod(scene, static_cast<gpu::LightMethod>(method)).ok());
     }
 
     void uploadDeformed(gpu::Renderer& recorded)
@@ -137,7 +143,7 @@ protected:
         setBricks(test, brickModel({8, 8, 8}, makeShell({8, 8, 8}),
                                    [](std::array<uint32_t, 3>, uint32_t) { return FaceLook{}; }));
         const formats::PackView pack = test.build();
-        uploadWith(recorded, pack, {.shadows = shadows});
+        prepareLights(recorded, *uploadWith(recorded, pack, {.shadows = shadows}));
     }
 
     /// The first recorded pipeline that has this shader.

@@ -48,6 +48,14 @@ std::vector<FrameConfiguration> everyConfiguration()
                     finished.adapts_exposure = random() % 2 != 0;
                     finished.blooms = random() % 2 != 0;
                     all.push_back(finished);
+                    if (materials != MaterialTest::id)
+                        continue;
+                    finished.radiance_format = VK_FORMAT_R16G16B16A16_SFLOAT;
+                    finished.light_path = LightPath::surfaces;
+                    all.push_back(finished);
+                    finished.light_path = LightPath::surfaces_on_tile;
+                    finished.blooms = finished.adapts_exposure = false;
+                    all.push_back(finished);
                 }
     return all;
 }
@@ -118,9 +126,9 @@ private:
     bool runUse(const ResourceUse& use, Contents& contents)
     {
         const bool attached = use.access == Access::color_write || use.access == Access::depth_write;
-        const bool reads = use.access == Access::input || use.access == Access::sampled ||
-                           use.access == Access::vertex_read || use.access == Access::fragment_read ||
-                           use.access == Access::compute_read ||
+        const bool reads = use.access == Access::input || use.access == Access::depth_input ||
+                           use.access == Access::sampled || use.access == Access::vertex_read ||
+                           use.access == Access::fragment_read || use.access == Access::compute_read ||
                            (attached && use.content != Content::overwrite);
         const Name name = findName(use.resource);
         bool holds = true;
@@ -177,6 +185,9 @@ struct AllowedWarning
     const char* reason;
 };
 
+const std::string kOnTile = "visibility + shading + add lights + final";
+const std::string kSplitOnTile = "shading + add lights + final";
+
 const AllowedWarning kAllowed[] = {
     {LintRule::spill, "visibility", "left the tile",
      "two phases: the pyramid of the early depth lies between"},
@@ -203,6 +214,21 @@ const AllowedWarning kAllowed[] = {
     {LintRule::late_depth, "visibility + shading", "writes the depth", "material numbers as depth"},
     {LintRule::late_depth, "shading", "discards", "pixels of other materials, behind the stencil"},
     {LintRule::late_depth, "visibility + shading", "discards", "as above"},
+    {LintRule::late_depth, kOnTile, "discards", "as above"},
+    {LintRule::late_depth, kSplitOnTile, "discards", "as above"},
+    {LintRule::tile_storage, kOnTile, "256 bits", "surfaces, light and the finished image of later tilers"},
+    {LintRule::tile_storage, kSplitOnTile, "256 bits", "as above"},
+    {LintRule::spill, kOnTile, "left the tile", "two phases: the pyramid of the early depth lies between"},
+    {LintRule::spill, kSplitOnTile, "left the tile", "compute passes lie behind the visibility buffer"},
+    {LintRule::tile_storage, "early visibility", "256 bits", "shares pipelines with the pass on the tile"},
+    {LintRule::tile_storage, "visibility", "256 bits", "as above"},
+    {LintRule::tile_storage, "visibility", "bits", "shares pipelines with the pass that stores surfaces"},
+    {LintRule::tile_storage, "visibility + shading", "bits", "surfaces and the light that follows"},
+    {LintRule::tile_storage, "shading", "bits", "as above"},
+    {LintRule::tile_storage, "early visibility", "bits", "as above"},
+    {LintRule::tile_storage, "add lights", "bits", "as above"},
+    {LintRule::spill, "shading", "loads the depth", "passes that light surfaces behind it need it"},
+    {LintRule::spill, "add lights", "left the tile", "stored surfaces"},
 };
 
 } // namespace
@@ -435,7 +461,7 @@ TEST(FramePasses, haveFewBytesAPixel)
 TEST(FramePasses, listsOfWhatPixelsShowTakeThePlansOfParts)
 {
     for (const FrameWay way : kFrameWays)
-        for (FrameConfiguration c : allConfigurations(way, MaterialTest::depth, true))
+        for (FrameConfiguration c : allConfigurations(way, MaterialTest::depth, FrameFeatures::finished))
         {
             if (c.in_parts)
                 continue;
@@ -569,6 +595,23 @@ TEST(FramePasses, finalPassesTakeFewBytes)
     EXPECT_DOUBLE_EQ(low(c), in_tile + 8 + levels + 1 + last_level);
     c.radiance_format = VK_FORMAT_R16G16B16A16_SFLOAT;
     EXPECT_DOUBLE_EQ(low(c), in_tile + 8 + levels + 1 + last_level + 8 + levels + 1 + last_level);
+}
+
+TEST(FramePasses, lightsBehindShadingTakeTheBytesOfSurfaces)
+{
+    FrameConfiguration c{.occlusion = OcclusionCulling::off, .materials = MaterialTest::id};
+    const Traffic shaded = measureTraffic(describeFrame(c));
+    c.has_final_pass = true;
+    c.radiance_format = VK_FORMAT_R16G16B16A16_SFLOAT;
+    c.light_path = LightPath::surfaces_on_tile;
+    const Traffic on_tile = measureTraffic(describeFrame(c));
+    EXPECT_DOUBLE_EQ(on_tile.low, shaded.low) << "nothing but the image leaves the tile";
+    // depth, surfaces and radiance are stored and loaded, the radiance once more before the final pass
+    EXPECT_DOUBLE_EQ(on_tile.high, shaded.high + 2 * (4 + 16 + 8) + 2 * 8);
+    c.light_path = LightPath::surfaces;
+    const Traffic stored = measureTraffic(describeFrame(c));
+    EXPECT_DOUBLE_EQ(stored.low, shaded.low + 2 * (4 + 16 + 8) + 2 * 8);
+    EXPECT_DOUBLE_EQ(stored.high, on_tile.high);
 }
 
 TEST(FramePasses, onlyTheFinalPassStoresTheImage)

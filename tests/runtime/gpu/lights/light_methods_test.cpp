@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <numbers>
 
 namespace hearth::test
 {
@@ -23,6 +24,14 @@ using formats::LightType;
 class LightMethodsTest : public GpuTest
 {
 protected:
+    static void SetUpTestSuite()
+    {
+        GpuTest::SetUpTestSuite();
+        gpu::RendererOptions options = testRendererOptions();
+        options.deferred = true;
+        replaceRenderer(options);
+    }
+
     /// Ground with rocks, one of them a masked or blended pattern of holes.
     void addGround()
     {
@@ -63,13 +72,43 @@ protected:
     {
         pack_.emplace(test_.build());
         scene_ = upload(*pack_, options);
-        prepareMethods();
+        prepareAll(*scene_);
     }
 
-    void prepareMethods()
+    static void prepareAll(gpu::Scene& scene)
     {
         for (size_t method = 0; method < gpu::kLightMethodCount; ++method)
-            ASSERT_TRUE(renderer().prepareLightMethod(*scene_, static_cast<gpu::LightMethod>(method)).ok());
+            ASSERT_TRUE(renderer().prepareLightMethod(scene, static_cast<gpu::LightMethod>(method)).ok());
+    }
+
+    /// Compare images: those of methods that add the same terms in one order are equal; others round stored
+    /// surfaces and sums, by 1 of 255 in all but a thousandth of the pixels, and by 2 at most.
+    /// hundreds  so many lights reach a pixel: those that blend light by light round each sum
+    static void expectSame(const Image& image, const Image& expected, gpu::LightMethod method,
+                           bool hundreds = false)
+    {
+        const gpu::LightMethodFacts& facts = gpu::lightMethodFacts(method);
+        if (facts.path == gpu::LightPath::materials)
+        {
+            EXPECT_EQ(image.color, expected.color) << facts.name;
+            return;
+        }
+        ASSERT_EQ(image.color.size(), expected.color.size());
+        size_t off_by_two = 0;
+        int largest = 0;
+        for (size_t i = 0; i < image.color.size(); ++i)
+        {
+            int difference = 0;
+            for (int c = 0; c < 3; ++c)
+                difference = std::max(difference,
+                                      std::abs(channel(image.color[i], c) - channel(expected.color[i], c)));
+            largest = std::max(largest, difference);
+            off_by_two += difference >= 2 ? 1 : 0;
+        }
+        const bool rounds_each = hundreds && facts.light_list == shared::kLightListVolumes;
+        EXPECT_LE(largest, rounds_each ? 8 : 2) << facts.name;
+        EXPECT_LE(1000 * off_by_two, rounds_each ? 1000 * image.color.size() : image.color.size())
+            << facts.name;
     }
 
     /// Words of the frame's lists: counts, numbers of lights, cells, and all indices that are in use.
@@ -93,7 +132,7 @@ protected:
 
     /// Compare the lists of both processors in a frame, and the images of all methods. The last frame is the
     /// default method's.
-    void expectOneImage(const shared::Camera& camera, const DrawOptions& options = {})
+    void expectOneImage(const shared::Camera& camera, const DrawOptions& options = {}, bool hundreds = false)
     {
         DrawOptions drawn = options;
         drawn.light_method = gpu::LightMethod::all;
@@ -107,7 +146,7 @@ protected:
                 drawn.light_method = static_cast<gpu::LightMethod>(method);
                 drawn.light_lister = lister;
                 const Image image = draw(*scene_, camera, drawn);
-                EXPECT_EQ(image.color, expected.color) << gpu::kLightMethods[method].name;
+                expectSame(image, expected, drawn.light_method, hundreds);
                 if (lister == gpu::LightLister::gpu)
                     on_gpu_ = lists();
                 else
@@ -145,6 +184,32 @@ TEST_F(LightMethodsTest, drawOneImageByHundredsWithShadowsAndTheEyeInsideLights)
     EXPECT_GT(gpu::readLightCounts(*scene_).cells, 20u);
 }
 
+/// Volumes are marked in the stencil: what one light leaves there would light the pixels of the next ones.
+TEST_F(LightMethodsTest, drawOneImageWithTheEyeInOnAndBeforeEachVolume)
+{
+    addGround();
+    const auto add = [&](LightType type, float range, float cone, const Float3& direction)
+    {
+        LightRecord record = light(type, {0, 1.5f, 0}, direction, 1 + 0.01f * range * range);
+        record.range = range;
+        record.outer_cone_rad = cone;
+        record.inner_cone_rad = 0.5f * cone;
+        test_.addLight(record);
+    };
+    for (const float range : {0.001f, 0.5f, 3.0f, 40.0f, 10'000.0f})
+    {
+        add(LightType::point, range, 0, {0, -1, 0});
+        for (const float share : {0.01f, 0.3f, 0.5f, 0.51f, 0.9f, 1.0f})
+            add(LightType::spot, range, 0.5f * share * std::numbers::pi_v<float>, {0.3f, -1, 0.1f});
+    }
+    load();
+    // within all of them; on the ball of 3 m, and near it; on the axis of the cones, behind and before them
+    for (const Float3 position :
+         {Float3{0, 1.5f, 0.001f}, Float3{0, 1.5f, 3}, Float3{0, 1.5f, 3.0001f}, Float3{0, 1.5f, 2.9f},
+          Float3{0.1f, 1.2f, 0.05f}, Float3{-0.6f, 3.5f, -0.2f}, Float3{0, 1.5f, 3.9f}, Float3{12, 5, 12}})
+        expectOneImage({.position = position, .target = {0.2f, 0, -1}});
+}
+
 TEST_F(LightMethodsTest, drawOneImageByAThousandLightsInAllSizes)
 {
     addGround();
@@ -158,7 +223,7 @@ TEST_F(LightMethodsTest, drawOneImageOfCharacters)
 {
     const DeformedScene characters({.rings = 12}, 5);
     scene_ = upload(characters.pack(), {.max_lights = 200});
-    prepareMethods();
+    prepareAll(*scene_);
     std::vector<gpu::LightChange> changes;
     for (uint32_t slot = 0; slot < 100; ++slot)
         changes.push_back(gpu::changeLight(*scene_, slot, randomLight(random_, 8)).value());
@@ -190,11 +255,12 @@ TEST_F(LightMethodsTest, drawOneImageWithBricks)
         Image image;
         for (int frame = 0; frame < 4; ++frame)
             image = draw(*scene, targets, kOverview, {.light_method = method});
-        return image.color;
+        return image;
     };
-    const std::vector<uint32_t> expected = settle(gpu::LightMethod::all);
+    const Image expected = settle(gpu::LightMethod::all);
     for (size_t method = 0; method < gpu::kLightMethodCount; ++method)
-        EXPECT_EQ(settle(static_cast<gpu::LightMethod>(method)), expected) << gpu::kLightMethods[method].name;
+        expectSame(settle(static_cast<gpu::LightMethod>(method)), expected,
+                   static_cast<gpu::LightMethod>(method));
 }
 
 TEST_F(LightMethodsTest, drawOneImageWhereListsOverflow)
@@ -202,7 +268,7 @@ TEST_F(LightMethodsTest, drawOneImageWhereListsOverflow)
     addGround();
     addLights(700, 40); // each light reaches nearly all cells
     load();
-    expectOneImage(kOverview, {.width = 320, .height = 240});
+    expectOneImage(kOverview, {.width = 320, .height = 240}, true);
     EXPECT_GT(gpu::readLightCounts(*scene_).overflows, 0u);
 }
 
@@ -234,9 +300,12 @@ TEST_F(LightMethodsTest, drawOneImageInTheFrameThatAddsTheFirstLight)
 {
     addGround();
     Image expected;
+    // `all` first
     for (const gpu::LightMethod method :
          {gpu::LightMethod::all, gpu::LightMethod::practical, gpu::LightMethod::tiled_forward,
-          gpu::LightMethod::clustered_forward, gpu::LightMethod::forward})
+          gpu::LightMethod::clustered_forward, gpu::LightMethod::forward, gpu::LightMethod::deferred,
+          gpu::LightMethod::tiled_deferred, gpu::LightMethod::clustered_deferred,
+          gpu::LightMethod::tile_deferred})
     {
         load({.max_lights = 4});
         LightRecord record = light(LightType::point, {0, 2, 0}, {0, -1, 0}, 10);
@@ -248,7 +317,7 @@ TEST_F(LightMethodsTest, drawOneImageInTheFrameThatAddsTheFirstLight)
         EXPECT_NE(lit.color, dark.color);
         if (method == gpu::LightMethod::all)
             expected = lit;
-        EXPECT_EQ(lit.color, expected.color) << gpu::lightMethodFacts(method).name;
+        expectSame(lit, expected, method);
     }
 }
 
@@ -265,8 +334,7 @@ TEST_F(LightMethodsTest, drawOneImageWhenTheMethodChangesFromFrameToFrame)
     for (int frame = 0; frame < 24; ++frame)
     {
         options.light_method = static_cast<gpu::LightMethod>(random_() % gpu::kLightMethodCount);
-        EXPECT_EQ(draw(*scene_, targets, kOverview, options).color, expected.color)
-            << frame << ": " << gpu::lightMethodFacts(options.light_method).name;
+        expectSame(draw(*scene_, targets, kOverview, options), expected, options.light_method);
     }
 }
 
@@ -302,8 +370,8 @@ TEST_F(LightMethodsTest, drawOneImageInAllCullingsAndInParts)
                             return success();
                         });
                     ASSERT_TRUE(status.ok());
-                    EXPECT_EQ(readImage(*scene_, targets).color, expected.color)
-                        << gpu::kLightMethods[method].name << occlusion << last_frame << in_parts;
+                    SCOPED_TRACE(testing::Message() << occlusion << last_frame << in_parts);
+                    expectSame(readImage(*scene_, targets), expected, static_cast<gpu::LightMethod>(method));
                 }
 }
 
@@ -346,11 +414,10 @@ TEST_F(LightMethodsTest, drawLightsThatFramesAddChangeAndRemove)
                   image.color);
         EXPECT_EQ(lists(), on_gpu);
         for (size_t method = 0; method < gpu::kLightMethodCount; ++method)
-            EXPECT_EQ(
-                draw(*scene_, targets, kOverview, {.light_method = static_cast<gpu::LightMethod>(method)})
-                    .color,
-                image.color)
-                << gpu::kLightMethods[method].name;
+        {
+            const auto drawn = static_cast<gpu::LightMethod>(method);
+            expectSame(draw(*scene_, targets, kOverview, {.light_method = drawn}), image, drawn);
+        }
         // as a scene that has had these lights all along: exposure is that of the scene as loaded
         std::vector<gpu::LightChange> all;
         const auto fresh = upload(*pack_, {.max_lights = 300});

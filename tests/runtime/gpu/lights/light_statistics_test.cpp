@@ -1,6 +1,7 @@
 // Tests the statistics of lights of each method against counts on the CPU.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/light_boxes.h"
+#include "formats/gpu_shared/light_volume.h"
 #include "runtime/gpu/statistics/light_statistics_pass.h"
 #include "tests/runtime/frame/light_cases.h"
 #include "tests/runtime/gpu/lights/random_light.h"
@@ -53,6 +54,14 @@ shared::LightListCounts countLists(const AreaLists& areas)
 class LightStatisticsTest : public GpuTest
 {
 protected:
+    static void SetUpTestSuite()
+    {
+        GpuTest::SetUpTestSuite();
+        gpu::RendererOptions options = testRendererOptions();
+        options.deferred = true;
+        replaceRenderer(options);
+    }
+
     void SetUp() override
     {
         GpuTest::SetUp();
@@ -237,8 +246,9 @@ TEST_F(LightStatisticsTest, countWhatPixelsEvaluateByEachMethod)
     const uint32_t lit_pairs = countLitPairs();
     EXPECT_NEAR(all.reaching_low, lit_pairs, 1e-3 * lit_pairs) << "pixels on the edge of a light may differ";
 
-    for (const gpu::LightMethod method : {gpu::LightMethod::practical, gpu::LightMethod::tiled_forward,
-                                          gpu::LightMethod::clustered_forward, gpu::LightMethod::forward})
+    for (const gpu::LightMethod method :
+         {gpu::LightMethod::practical, gpu::LightMethod::tiled_forward, gpu::LightMethod::clustered_forward,
+          gpu::LightMethod::forward, gpu::LightMethod::tiled_deferred, gpu::LightMethod::clustered_deferred})
     {
         const shared::LightListCounts counts = count(method);
         const gpu::LightAreas listed = gpu::lightMethodFacts(method).areas;
@@ -257,6 +267,30 @@ TEST_F(LightStatisticsTest, countWhatPixelsEvaluateByEachMethod)
         EXPECT_LT(counts.evaluated_low, all.evaluated_low / 2) << name;
         EXPECT_EQ(count(method).evaluated_low, counts.evaluated_low)
             << name << ": counts begin anew in each frame";
+    }
+}
+
+TEST_F(LightStatisticsTest, countThePixelsInVolumes)
+{
+    const float half_height = kEyeHeight * std::tan(0.5f * kFromAbove.y_fov_rad);
+    const float pixel = 2 * half_height / kHeight;
+    uint32_t enclosed = 0;
+    for (uint32_t y = 0; y < kHeight; ++y)
+        for (uint32_t x = 0; x < kWidth; ++x)
+        {
+            // of the view: right, down, along
+            const Float3 place{(static_cast<float>(x) + 0.5f - kWidth / 2.0f) * pixel,
+                               (static_cast<float>(y) + 0.5f - kHeight / 2.0f) * pixel, kEyeHeight};
+            enclosed +=
+                countLights([&](const shared::CellLight& light) { return isInLightVolume(light, place); });
+        }
+    const uint32_t reaching = count(gpu::LightMethod::all).reaching_low;
+    for (const gpu::LightMethod method : {gpu::LightMethod::deferred, gpu::LightMethod::tile_deferred})
+    {
+        const shared::LightListCounts counts = count(method);
+        EXPECT_EQ(counts.reaching_low, reaching);
+        EXPECT_NEAR(counts.evaluated_low, enclosed, 1e-3 * enclosed) << "pixels on the edge may differ";
+        EXPECT_LT(counts.evaluated_low, 1.5 * reaching);
     }
 }
 

@@ -1,0 +1,76 @@
+// Light of lamps and suns that surfaces, which shading has stored, reflect towards the eye. Include behind
+// shadow.glsl or unshadowed.glsl.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/reflector.h"
+#include "formats/gpu_shared/specialization.h"
+#include "runtime/shaders/scene/directions.glsl"
+#include "runtime/shaders/scene/light_block.glsl"
+#include "runtime/shaders/shade/brdf.glsl"
+#include "runtime/shaders/shade/light_irradiance.glsl"
+#include "runtime/shaders/shade/stored_radiance.glsl"
+#include "runtime/shaders/shade/surface_words.glsl"
+
+#ifdef HEARTH_SAMPLED
+layout(set = kSetScene, binding = kAttachmentSurfaces) uniform usampler2D stored_surfaces;
+
+uvec4 loadSurface() { return texelFetch(stored_surfaces, ivec2(gl_FragCoord.xy), 0); }
+#else
+layout(input_attachment_index = kInputSurfaces, set = kSetScene, binding = kAttachmentSurfaces)
+    uniform usubpassInput stored_surfaces;
+
+uvec4 loadSurface() { return subpassLoad(stored_surfaces); }
+#endif
+// bound for the stencil, so that nothing else may read it
+layout(input_attachment_index = kInputDepth, set = kSetScene, binding = kAttachmentDepth)
+    uniform subpassInput stored_depth;
+
+float loadDepth() { return subpassLoad(stored_depth).x; }
+
+layout(constant_id = kConstantReflects) const bool kReflects = false;
+
+vec3 reflectedShare(Light light, vec3 from_lamp) { return kReflects ? reflectorShare(light, from_lamp) : vec3(0.0); }
+
+// Surface of a pixel with its place, ready to be lit.
+struct PlacedSurface
+{
+    Shading shading;
+    vec3 position; // relative to the eye
+    vec3 flat_normal;
+    float error;
+};
+
+// Point of the pixel at a depth, relative to the eye: of all with these clip coordinates, the one whose
+// distance along the view is that of the depth.
+vec3 pixelPosition(vec2 pixel, float depth)
+{
+    vec2 ndc = pixel * 2.0 / vec2(view.width, view.height) - 1.0;
+    vec3 x = view.clip_x.xyz, y = view.clip_y.xyz, w = view.clip_w.xyz;
+    vec3 across = cross(x, y);
+    vec3 ray = cross(y, w) * ndc.x + cross(w, x) * ndc.y + across;
+    return ray * (view.z_near / (depth * dot(across, w)));
+}
+
+// words  not kNoSurface
+PlacedSurface placedSurface(uvec4 words)
+{
+    LitSurface surface = unpackSurface(words);
+    PlacedSurface placed;
+    placed.position = pixelPosition(gl_FragCoord.xy, loadDepth());
+    placed.flat_normal = surface.flat_normal;
+    placed.error = surface.error;
+    placed.shading.roughness = surface.roughness;
+    placed.shading.normal = surface.normal;
+    placed.shading.to_eye = normalizeOr(-placed.position, surface.normal);
+    placed.shading.n_dot_v = clampedCosine(surface.normal, placed.shading.to_eye);
+    placed.shading.lobe = lobeTotal(surface.roughness, placed.shading.n_dot_v);
+    placed.shading.albedo = surfaceAlbedo(surface.base, surface.metallic, defaultDielectric(), placed.shading.lobe);
+    return placed;
+}
+
+vec3 lightRadiance(PlacedSurface surface, Light light)
+{
+    vec3 to_light;
+    vec3 irradiance = lightIrradiance(light, surface.position, to_light);
+    float share = lightVisibility(light, surface.position, surface.flat_normal, surface.error);
+    return irradiance * reflected(surface.shading, to_light) * share;
+}

@@ -1,0 +1,6 @@
+// Shades a material but for the lights, and stores its surfaces: shading.glsl.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#define HEARTH_STORES_SURFACES
+#include "runtime/shaders/shade/shading.glsl"
