@@ -51,6 +51,10 @@ static_assert(equal(HEARTH_LIGHTS_ALL, gpu::LightMethod::all));
 static_assert(equal(HEARTH_LIGHTS_TILED_FORWARD, gpu::LightMethod::tiled_forward));
 static_assert(equal(HEARTH_LIGHTS_CLUSTERED_FORWARD, gpu::LightMethod::clustered_forward));
 static_assert(equal(HEARTH_LIGHTS_FORWARD, gpu::LightMethod::forward));
+static_assert(equal(HEARTH_LIGHTS_DEFERRED, gpu::LightMethod::deferred));
+static_assert(equal(HEARTH_LIGHTS_TILED_DEFERRED, gpu::LightMethod::tiled_deferred));
+static_assert(equal(HEARTH_LIGHTS_CLUSTERED_DEFERRED, gpu::LightMethod::clustered_deferred));
+static_assert(equal(HEARTH_LIGHTS_TILE_DEFERRED, gpu::LightMethod::tile_deferred));
 
 constexpr bool equal(int c, gpu::LightLister lister)
 {

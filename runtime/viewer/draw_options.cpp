@@ -426,6 +426,11 @@ Status checkDrawOptions(const DrawOptions& options)
 {
     if (options.settings.view == shared::kViewShadowMaps && options.shadows.options.max_maps == 0)
         return usageError("--view shadow-maps needs --shadows on");
+    const gpu::LightMethodFacts& lights = gpu::lightMethodFacts(options.settings.light_method);
+    if (lights.path != gpu::LightPath::materials &&
+        options.settings.material_test == gpu::MaterialTest::depth)
+        return usageError("--lights " + std::string(lights.name) +
+                          " needs --materials id: its lights read the depth of the scene");
     return success();
 }
 

@@ -162,7 +162,7 @@ void Panel::build(ViewSettings& settings, const PanelData& facts)
             showProblem(std::to_string(dropped) + " lights are more than can be drawn");
         chooseCamera(settings, facts);
         chooseAsset(settings, facts.assets);
-        buildImage(settings.frame, facts.scene.scene());
+        buildImage(settings.frame, facts);
         buildAnimation(settings.playback, facts);
         buildCurve(settings.frame);
         buildStreaming(settings, facts);
@@ -172,8 +172,9 @@ void Panel::build(ViewSettings& settings, const PanelData& facts)
     ImGui::End();
 }
 
-void Panel::buildImage(FrameSettings& settings, const gpu::Scene& scene)
+void Panel::buildImage(FrameSettings& settings, const PanelData& facts)
 {
+    const gpu::Scene& scene = facts.scene.scene();
     std::vector<Named<uint32_t>> views;
     for (const Named<uint32_t>& view : viewNames())
         if ((scene.shadows != nullptr || view.value != shared::kViewShadowMaps) &&
@@ -185,7 +186,11 @@ void Panel::buildImage(FrameSettings& settings, const gpu::Scene& scene)
     ImGui::SliderFloat("Error, pixels", &settings.error_pixels, 0, kMaxError, "%.2f",
                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     chooseNamed("Shaded area", shadedAreaNames(), settings.shaded_area);
-    chooseNamed("Lights", lightMethodNames(), settings.light_method);
+    std::vector<Named<gpu::LightMethod>> methods;
+    for (const Named<gpu::LightMethod>& method : lightMethodNames())
+        if (facts.renderer.supports(method.value))
+            methods.push_back(method);
+    chooseNamed("Lights", std::span<const Named<gpu::LightMethod>>(methods), settings.light_method);
     chooseNamed("Lists of lights", lightListerNames(), settings.light_lister);
     if (gpu::hasSkyVisibility(scene))
     {

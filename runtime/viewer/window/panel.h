@@ -33,6 +33,7 @@ struct NamedCamera
 struct PanelData
 {
     const std::string& device;
+    const gpu::Renderer& renderer;
     VkExtent2D extent;
     double frame_seconds; ///< from one frame to the next
     const FrameStatistics& figures;
@@ -57,7 +58,7 @@ public:
     void build(ViewSettings& settings, const PanelData& facts);
 
 private:
-    void buildImage(FrameSettings& settings, const gpu::Scene& scene);
+    void buildImage(FrameSettings& settings, const PanelData& facts);
     void buildCurve(FrameSettings& settings);
     void buildStreaming(ViewSettings& settings, const PanelData& facts);
     void buildCulling(ViewSettings& settings, const PanelData& facts);

@@ -129,9 +129,9 @@ Status Viewer::open(const ViewOptions& options)
     HEARTH_ASSIGN_OR_RETURN(
         host_, VulkanHost::create(
                    {.device_name = options.device, .validate = options.validate, .window = &host_window}));
-    gpu::RendererOptions renderer_options = rendererOptions(settings_.frame);
-    renderer_options.deferred = true; // the panel changes the light method at any time
-    HEARTH_ASSIGN_OR_RETURN(renderer_, gpu::Renderer::create(host_->description(), renderer_options));
+    // the panel offers the light methods of the path that the window begins with, and of simpler ones
+    HEARTH_ASSIGN_OR_RETURN(renderer_,
+                            gpu::Renderer::create(host_->description(), rendererOptions(settings_.frame)));
     HEARTH_TRY(renderer_->prepareOverdraw());
     HEARTH_ASSIGN_OR_RETURN(vk_, loadWindowTable(host_->description()));
     const gpu::Device& device = renderer_->device();
@@ -321,6 +321,7 @@ void Viewer::buildPanel()
 {
     imgui_->beginFrame();
     panel_.build(settings_, {.device = host_->deviceName(),
+                             .renderer = *renderer_,
                              .extent = swapchain_->extent(),
                              .frame_seconds = frame_seconds_,
                              .figures = meter_->figures(),

@@ -243,6 +243,8 @@ TEST(RenderOptions, mistakesAreNamed)
     for (const char* sphere : {"", "1,2,3", "1,2,3,0", "1,2,3,4,x", "1,2,3,4,5,6"})
         expectUsage({"a.hearth", "-o", "a.png", "--shadow-sphere", sphere}, "--shadow-sphere");
     expectUsage({"a.hearth", "-o", "a.png", "--view", "shadow-maps", "--shadows", "off"}, "--shadows");
+    expectUsage({"a.hearth", "-o", "a.png", "--lights", "deferred", "--materials", "depth"},
+                "--materials id");
     for (const char* budget : {"", "0", "M", "-1", "1.5M", "1T", "1025G", "99999999999999999999"})
         expectUsage({"a.hearth", "-o", "a.png", "--budget", budget}, "--budget");
     for (const char* tests : {"", "some", "cone,", "all,cone"})
