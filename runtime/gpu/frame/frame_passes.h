@@ -15,7 +15,7 @@ namespace hearth::gpu
 
 inline constexpr VkFormat kVisibilityFormat = VK_FORMAT_R32_UINT;
 inline constexpr VkFormat kColorFormat = VK_FORMAT_R8G8B8A8_SRGB;
-/// SurfaceWords of formats/gpu_shared/surface_words.h.
+/// Words that runtime/shaders/shade/surface_words.glsl packs.
 inline constexpr VkFormat kSurfacesFormat = VK_FORMAT_R32G32B32A32_UINT;
 /// Stops of automatic exposure.
 inline constexpr VkFormat kExposureFormat = VK_FORMAT_R32_SFLOAT;

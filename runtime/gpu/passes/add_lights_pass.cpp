@@ -76,6 +76,8 @@ Status AddLightsPass::prepare(const Device& device, const DrawLayouts& layouts, 
         lists.add = true;
         lists.constants = constants;
         HEARTH_ASSIGN_OR_RETURN(entry->second.lists, createGraphicsPipeline(device, lists));
+        if (variant.light_list != shared::kLightListVolumes)
+            continue;
         GraphicsDescription volume = lists;
         volume.vertex = shaders::light_volume_vert;
         volume.fragment = (variant.shadowed ? shaders::add_light_volume_shadowed_frag

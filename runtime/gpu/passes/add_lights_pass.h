@@ -1,7 +1,7 @@
 // Adds lights to the surfaces that shading has stored: by a list for each pixel, or light by light in the
-// pixels within its volume. Volumes are marked in the stencil, wherever the eye is: C. Everitt, M. Kilgard,
-// "Practical and robust stenciled shadow volumes", 2002, applied to lights by D. Koerner, "Light pre-pass",
-// SIGGRAPH 2009.
+// pixels within its volume. Volumes are marked in the stencil, wherever the eye is, as those of shadows:
+// C. Everitt, M. Kilgard, "Practical and robust stenciled shadow volumes for hardware-accelerated rendering",
+// 2002.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -49,7 +49,7 @@ private:
     struct Pipelines
     {
         UniquePipeline lists;
-        UniquePipeline volume;
+        UniquePipeline volume; ///< of methods that draw volumes
     };
     DrawPlace place_{};
     FrameWay way_ = FrameWay::merged;

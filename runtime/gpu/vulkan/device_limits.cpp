@@ -23,7 +23,7 @@ constexpr RequiredLimit kLimits[] = {
     {HEARTH_LIMIT(maxPerStageDescriptorSampledImages), 15, "sampled images in a stage", "as the samplers"},
     {HEARTH_LIMIT(maxPerStageDescriptorStorageImages), 1, "storage images in a stage", "gathered light"},
     {HEARTH_LIMIT(maxPerStageDescriptorInputAttachments), 2, "input attachments in a stage",
-     "shading in the render pass of the visibility buffer"},
+     "lights of stored surfaces: the surface and its depth"},
     {HEARTH_LIMIT(maxPerStageResources), 28, "resources in a stage",
      "shading: the above and its colour attachment"},
     {HEARTH_LIMIT(maxDescriptorSetStorageBuffers), 9, "storage buffers in a pipeline", "shading by tiles"},

@@ -4,8 +4,8 @@
 #include "formats/gpu_shared/light_volume.h"
 #include "runtime/gpu/statistics/light_statistics_pass.h"
 #include "tests/runtime/frame/light_cases.h"
+#include "tests/runtime/gpu/lights/all_lights_test.h"
 #include "tests/runtime/gpu/lights/random_light.h"
-#include "tests/support/gpu_fixture.h"
 #include "tests/support/shapes.h"
 
 #include <cmath>
@@ -51,20 +51,12 @@ shared::LightListCounts countLists(const AreaLists& areas)
 }
 
 /// A ground of sheets seen from straight above: places and depths of pixels are known.
-class LightStatisticsTest : public GpuTest
+class LightStatisticsTest : public AllLightsTest
 {
 protected:
-    static void SetUpTestSuite()
-    {
-        GpuTest::SetUpTestSuite();
-        gpu::RendererOptions options = testRendererOptions();
-        options.deferred = true;
-        replaceRenderer(options);
-    }
-
     void SetUp() override
     {
-        GpuTest::SetUp();
+        AllLightsTest::SetUp();
         if (IsSkipped())
             return;
         const uint32_t sheet =
