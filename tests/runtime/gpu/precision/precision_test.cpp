@@ -24,7 +24,7 @@ using testing::Not;
 /// reconstructs the surface, finds light and shadow, and is the distribution of microfacets.
 const std::map<std::string, double>& relaxedShares()
 {
-    static const std::map<std::string, double> shares = {{"shading_frag", 29},
+    static const std::map<std::string, double> shares = {{"shading_frag", 28},
                                                          {"shading_shadowed_frag", 26},
                                                          {"shading_gi_frag", 15},
                                                          {"shading_shadowed_gi_frag", 13}};
