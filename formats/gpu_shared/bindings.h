@@ -55,8 +55,16 @@ HEARTH_CONSTANT uint kAttachmentGi = 27; ///< result of the gather passes, for f
 HEARTH_CONSTANT uint kAttachmentSurfaces = 28;
 HEARTH_CONSTANT uint kAttachmentDepth = 29;
 
+/// First binding of kLightImages images that lights have been added to, or marked in, ahead of shading:
+/// input attachments of renderers with such methods.
+HEARTH_CONSTANT uint kAttachmentLight = 30;
+HEARTH_CONSTANT uint kLightImages = 3;
+
 /// Index of the visibility buffer among the input attachments of the subpasses that read it.
 HEARTH_CONSTANT uint kInputVisibility = 0;
+/// Index of the first of kLightImages beside the visibility buffer, and without it.
+HEARTH_CONSTANT uint kInputLight = 1;
+HEARTH_CONSTANT uint kInputLightSampled = 0;
 /// Indices of the depth and of stored surfaces among those of the subpass that adds lights.
 HEARTH_CONSTANT uint kInputDepth = 0;
 HEARTH_CONSTANT uint kInputSurfaces = 1;

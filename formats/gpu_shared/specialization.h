@@ -33,6 +33,8 @@ HEARTH_CONSTANT uint kLightListTiles = 2; ///< those of its tile of the image
 HEARTH_CONSTANT uint kLightListSlots = 3; ///< those of its slot of the visible list
 /// None: light_volume.h is drawn for each of the frame.
 HEARTH_CONSTANT uint kLightListVolumes = 4;
+/// Lights of the pixel's bits (light_bits.h), and behind them lights of its cell.
+HEARTH_CONSTANT uint kLightListBits = 5;
 
 /// Source of the vertices of deformed meshes.
 HEARTH_CONSTANT uint kDeformedNone = 0; ///< no deformed meshes: rigid scenes and bins pay nothing for them

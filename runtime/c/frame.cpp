@@ -136,8 +136,9 @@ Status checkFrame(const hearth_scene& scene, const hearth_targets& targets, cons
         (scene.prepared_lights >> frame->light_method & 1) == 0)
         return usage("light_method is unknown, or hearth_scene_prepare_lights has not prepared it");
     const gpu::LightPath path = gpu::neededLightPath(targets.targets, makeShading(*frame));
-    if (path > targets.targets.options().light_path)
-        return usage("light_method needs targets with HEARTH_TARGETS_DEFERRED");
+    if (!targets.targets.options().allows(path))
+        return usage("light_method needs targets with its flag: HEARTH_TARGETS_DEFERRED, _STACK, _PREPASS or "
+                     "_CLASSIC_PREPASS");
     const bool blooms = frame->bloom_strength > 0 || frame->automatic_exposure != 0;
     if (blooms && !targets.targets.options().may_bloom)
         return usage("bloom_strength and automatic_exposure need targets with HEARTH_TARGETS_BLOOM");

@@ -109,7 +109,7 @@ enum
     HEARTH_FEATURE_GRADING = 8,            /* 1.8: frames may have exposure_stops and a photo filter */
     /* 1.8: and bloom, automatic exposure, and targets with another output size; twice the pipelines that shade */
     HEARTH_FEATURE_FINAL_PASS = 16,
-    /* 1.8: and the light methods that store surfaces (HEARTH_LIGHTS_DEFERRED and the like). Implies
+    /* 1.8: and the light methods that do not shade and light at once (HEARTH_LIGHTS_DEFERRED and on). Implies
      * HEARTH_MATERIALS_ID and HEARTH_FEATURE_FINAL_PASS, with linear colours of 8 bytes a pixel. */
     HEARTH_FEATURE_DEFERRED = 32
 };
@@ -423,7 +423,11 @@ enum
     HEARTH_TARGETS_DEFERRED = 16,
     /* the same, but only HEARTH_LIGHTS_TILE_DEFERRED without bloom, automatic exposure and another output
      * size: surfaces need no memory on tile-based GPUs */
-    HEARTH_TARGETS_TILE_DEFERRED = 32
+    HEARTH_TARGETS_TILE_DEFERRED = 32,
+    /* frames may use these light methods; with HEARTH_FEATURE_DEFERRED */
+    HEARTH_TARGETS_STACK = 64,
+    HEARTH_TARGETS_PREPASS = 128,
+    HEARTH_TARGETS_CLASSIC_PREPASS = 256
 };
 
 /* What frames with the targets may ask for (1.8): images that never leave a tile-based GPU's tile need no
@@ -676,7 +680,13 @@ enum
     HEARTH_LIGHTS_DEFERRED = 5,           /* light by light, in the pixels of its volume */
     HEARTH_LIGHTS_TILED_DEFERRED = 6,     /* lists as TILED_FORWARD */
     HEARTH_LIGHTS_CLUSTERED_DEFERRED = 7, /* lists as CLUSTERED_FORWARD */
-    HEARTH_LIGHTS_TILE_DEFERRED = 8       /* as DEFERRED, in one render pass */
+    HEARTH_LIGHTS_TILE_DEFERRED = 8,      /* as DEFERRED, in one render pass */
+    /* The next three act between visibility and shading, in one render pass, by a renderer with
+     * HEARTH_FEATURE_DEFERRED. */
+    HEARTH_LIGHTS_STACK = 9,    /* bits of a pixel name its lights; the image has the bytes of PRACTICAL */
+    HEARTH_LIGHTS_PREPASS = 10, /* lights are summed, and weighed by materials: 2 of 255 at most */
+    /* the same with less bytes: specular light has the hue of diffuse light, and the image differs */
+    HEARTH_LIGHTS_CLASSIC_PREPASS = 11
 };
 
 /* Processor that lists the lights of cells, of PRACTICAL and ALL (1.8). The lists are the same. */

@@ -55,6 +55,9 @@ static_assert(equal(HEARTH_LIGHTS_DEFERRED, gpu::LightMethod::deferred));
 static_assert(equal(HEARTH_LIGHTS_TILED_DEFERRED, gpu::LightMethod::tiled_deferred));
 static_assert(equal(HEARTH_LIGHTS_CLUSTERED_DEFERRED, gpu::LightMethod::clustered_deferred));
 static_assert(equal(HEARTH_LIGHTS_TILE_DEFERRED, gpu::LightMethod::tile_deferred));
+static_assert(equal(HEARTH_LIGHTS_STACK, gpu::LightMethod::stack));
+static_assert(equal(HEARTH_LIGHTS_PREPASS, gpu::LightMethod::prepass));
+static_assert(equal(HEARTH_LIGHTS_CLASSIC_PREPASS, gpu::LightMethod::classic_prepass));
 
 constexpr bool equal(int c, gpu::LightLister lister)
 {

@@ -30,12 +30,18 @@ hearth_image makeImage(const gpu::Image& image, const gpu::ImageUse& drawn, cons
             .after = toC(shaded.after)};
 }
 
-gpu::LightPath toLightPath(uint32_t flags)
+uint32_t toLightPaths(uint32_t flags)
 {
-    if ((flags & HEARTH_TARGETS_DEFERRED) != 0)
-        return gpu::LightPath::surfaces;
-    return (flags & HEARTH_TARGETS_TILE_DEFERRED) != 0 ? gpu::LightPath::surfaces_on_tile
-                                                       : gpu::LightPath::materials;
+    constexpr std::pair<uint32_t, gpu::LightPath> kPaths[] = {
+        {HEARTH_TARGETS_DEFERRED, gpu::LightPath::surfaces},
+        {HEARTH_TARGETS_TILE_DEFERRED, gpu::LightPath::surfaces_on_tile},
+        {HEARTH_TARGETS_PREPASS, gpu::LightPath::light_sums},
+        {HEARTH_TARGETS_CLASSIC_PREPASS, gpu::LightPath::joint_sums},
+        {HEARTH_TARGETS_STACK, gpu::LightPath::light_bits}};
+    uint32_t paths = 0;
+    for (const auto& [flag, path] : kPaths)
+        paths |= (flags & flag) != 0 ? gpu::lightPathBit(path) : 0;
+    return paths;
 }
 
 Status check(const hearth_renderer& renderer, const hearth_targets_description& description)
@@ -44,9 +50,10 @@ Status check(const hearth_renderer& renderer, const hearth_targets_description& 
         return usage("width or height is 0");
     if (description.occlusion > HEARTH_OCCLUSION_OFF)
         return usage("occlusion has a value that this version does not know");
-    constexpr uint32_t kFlags = HEARTH_TARGETS_KEEP_VISIBILITY | HEARTH_TARGETS_SPLIT |
-                                HEARTH_TARGETS_COUNT_MISSING | HEARTH_TARGETS_BLOOM |
-                                HEARTH_TARGETS_DEFERRED | HEARTH_TARGETS_TILE_DEFERRED;
+    constexpr uint32_t kFlags =
+        HEARTH_TARGETS_KEEP_VISIBILITY | HEARTH_TARGETS_SPLIT | HEARTH_TARGETS_COUNT_MISSING |
+        HEARTH_TARGETS_BLOOM | HEARTH_TARGETS_DEFERRED | HEARTH_TARGETS_TILE_DEFERRED | HEARTH_TARGETS_STACK |
+        HEARTH_TARGETS_PREPASS | HEARTH_TARGETS_CLASSIC_PREPASS;
     if ((description.flags & ~kFlags) != 0 || description.reserved != 0)
         return usage("flags has bits that this version does not know, or reserved is not 0");
     if ((description.output_width == 0) != (description.output_height == 0))
@@ -56,10 +63,9 @@ Status check(const hearth_renderer& renderer, const hearth_targets_description& 
     if (needs_final_pass && !renderer.renderer->hasFinalPasses())
         return usage("HEARTH_TARGETS_BLOOM and an output size need a renderer with "
                      "HEARTH_FEATURE_FINAL_PASS");
-    if (toLightPath(description.flags) != gpu::LightPath::materials &&
-        !renderer.renderer->supports(gpu::LightMethod::deferred))
-        return usage("HEARTH_TARGETS_DEFERRED and HEARTH_TARGETS_TILE_DEFERRED need a renderer with "
-                     "HEARTH_FEATURE_DEFERRED");
+    if (toLightPaths(description.flags) != 0 && !renderer.renderer->supports(gpu::LightMethod::deferred))
+        return usage("HEARTH_TARGETS_DEFERRED, _TILE_DEFERRED, _STACK, _PREPASS and _CLASSIC_PREPASS need a "
+                     "renderer with HEARTH_FEATURE_DEFERRED");
     if (description.scene != nullptr && description.scene->renderer != &renderer)
         return usage("the scene is of another renderer");
     return success();
@@ -72,7 +78,7 @@ gpu::TargetOptions toOptions(const hearth_targets_description& description)
                                .counts_missing = (description.flags & HEARTH_TARGETS_COUNT_MISSING) != 0,
                                .may_bloom = (description.flags & HEARTH_TARGETS_BLOOM) != 0,
                                .output = {description.output_width, description.output_height},
-                               .light_path = toLightPath(description.flags)};
+                               .light_paths = toLightPaths(description.flags)};
     if (description.scene == nullptr)
         return options;
     const gpu::Scene& scene = *description.scene->scene;

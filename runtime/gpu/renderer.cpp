@@ -88,7 +88,7 @@ FrameConfiguration configure(const Scene& scene, const FrameTargets& targets, co
             .lights_bricks = scene.bricks != nullptr,
             .has_final_pass = alwaysHasFinalPass(targets.options(), targets.extent()) ||
                               usesBloom(input.shading) || adaptsExposure(input.shading) ||
-                              path != LightPath::materials,
+                              storesSurfaces(path),
             .adapts_exposure = adaptsExposure(input.shading),
             .blooms = usesBloom(input.shading),
             .light_path = path};
@@ -126,7 +126,8 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const DeviceDescription& desc
         formats.insert(formats.end(), {kHalfFormat, kStopsFormat});
     HEARTH_ASSIGN_OR_RETURN(r.device_, makeDevice(description, formats));
     const FrameWay way = options.way.value_or(chooseFrameWay(r.device_.identity));
-    HEARTH_ASSIGN_OR_RETURN(r.layouts_, DrawLayouts::create(r.device_, shadingDescriptors(way)));
+    HEARTH_ASSIGN_OR_RETURN(r.layouts_,
+                            DrawLayouts::create(r.device_, shadingDescriptors(way, options.deferred)));
     std::optional<VkFormat> radiance_format;
     if (has_final_passes)
         radiance_format = r.post_support_ == PostSupport::packed && r.device_.draws_packed_floats
@@ -140,11 +141,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const DeviceDescription& desc
     HEARTH_ASSIGN_OR_RETURN(r.page_requests_, PageRequestPass::create(r.device_));
     HEARTH_ASSIGN_OR_RETURN(r.pyramid_, PyramidPass::create(r.device_, r.layouts_));
     HEARTH_ASSIGN_OR_RETURN(r.material_tiles_, MaterialTilesPass::create(r.device_, r.layouts_));
-    for (size_t i = 0; i < kShadedOutputCount && r.passes_.has(static_cast<ShadedOutput>(i)); ++i)
-    {
-        HEARTH_ASSIGN_OR_RETURN(DrawPasses draws, r.createDrawPasses(static_cast<ShadedOutput>(i)));
-        r.draws_.push_back(std::move(draws));
-    }
+    HEARTH_TRY(r.prepareDraws(LightPath::materials));
     if (r.passes_.hasFinalPasses())
     {
         HEARTH_ASSIGN_OR_RETURN(r.post_, PostPass::create(r.device_, r.layouts_, r.passes_));
@@ -158,27 +155,52 @@ Result<Renderer::DrawPasses> Renderer::createDrawPasses(ShadedOutput output) con
     HEARTH_ASSIGN_OR_RETURN(
         draws.visibility,
         BinPass::createVisibility(device_, layouts_, passes_.place(output, FrameStep::visibility)));
-    HEARTH_ASSIGN_OR_RETURN(draws.material_marks,
-                            MaterialMarksPass::create(device_, layouts_, passes_, output));
+    HEARTH_ASSIGN_OR_RETURN(draws.material_marks, MaterialMarksPass::create(device_, layouts_, passes_,
+                                                                            output, FrameStep::shading));
     HEARTH_ASSIGN_OR_RETURN(draws.shading,
                             ShadingPass::create(device_, layouts_, passes_, output, storedColor(output)));
-    if (storesSurfaces(output))
+    const LightPath path = lightPath(output);
+    if (sumsLights(path))
+    {
+        HEARTH_ASSIGN_OR_RETURN(draws.normal_marks, MaterialMarksPass::create(device_, layouts_, passes_,
+                                                                              output, FrameStep::normals));
+    }
+    if (storesSurfaces(path) || sumsLights(path))
     {
         HEARTH_ASSIGN_OR_RETURN(draws.add_lights, AddLightsPass::create(device_, layouts_, passes_, output));
     }
+    if (path == LightPath::light_bits)
+    {
+        HEARTH_ASSIGN_OR_RETURN(draws.mark_lights,
+                                MarkLightsPass::create(device_, layouts_, passes_, output));
+    }
+    if (skinning_)
+        HEARTH_TRY(draws.visibility.prepareDeformed(device_));
     return draws;
+}
+
+Status Renderer::prepareDraws(LightPath path)
+{
+    for (size_t i = 0; i < kShadedOutputCount; ++i)
+    {
+        const auto output = static_cast<ShadedOutput>(i);
+        if (!passes_.has(output) || !mayShade(path, output) || draws_[i])
+            continue;
+        HEARTH_ASSIGN_OR_RETURN(draws_[i], createDrawPasses(output));
+    }
+    return success();
 }
 
 uint32_t Renderer::storedColor(ShadedOutput output) const
 {
-    if (output == ShadedOutput::color)
+    if (!isRadiance(output))
         return post_support_ == PostSupport::none ? shared::kStoredDisplay : shared::kStoredGraded;
     return passes_.radianceFormat() == kPackedRadiance ? shared::kStoredPacked : shared::kStoredHalf;
 }
 
 const Renderer::DrawPasses& Renderer::drawPasses(const PassRecorder& passes) const
 {
-    return draws_[static_cast<size_t>(passes.shadedOutput())];
+    return *draws_[static_cast<size_t>(passes.shadedOutput())];
 }
 
 Result<FrameTargets> Renderer::createTargets(VkExtent2D extent, const TargetOptions& options) const
@@ -261,11 +283,12 @@ Status Renderer::prepareDeformed()
     }
     HEARTH_TRY(cull_.prepareDeformed(device_, layouts_));
     HEARTH_TRY(page_requests_.prepareDeformed(device_));
-    for (DrawPasses& draws : draws_)
+    for (std::optional<DrawPasses>& draws : draws_)
     {
-        if (draws.overdraw)
-            HEARTH_TRY(draws.overdraw->prepareDeformed(device_));
-        HEARTH_TRY(draws.visibility.prepareDeformed(device_));
+        if (draws && draws->overdraw)
+            HEARTH_TRY(draws->overdraw->prepareDeformed(device_));
+        if (draws)
+            HEARTH_TRY(draws->visibility.prepareDeformed(device_));
     }
     return success();
 }
@@ -290,7 +313,7 @@ Status Renderer::prepareLightMethod(Scene& scene, LightMethod method)
 {
     HEARTH_ASSERT(supports(method));
     const LightMethodFacts& facts = lightMethodFacts(method);
-    const bool lights_surfaces = facts.path != LightPath::materials;
+    HEARTH_TRY(prepareDraws(facts.path));
     HEARTH_TRY(light_lists_.prepare(device_, layouts_, scene, facts.areas));
     for (SceneMaterial& material : scene.materials)
     {
@@ -299,21 +322,26 @@ Status Renderer::prepareLightMethod(Scene& scene, LightMethod method)
             facts.light_list == shared::kLightListVolumes ? shared::kLightListCells : facts.light_list;
         for (size_t i = 0; i < draws_.size(); ++i)
         {
-            if (storesSurfaces(static_cast<ShadedOutput>(i)) != lights_surfaces)
+            if (!draws_[i] || !mayShade(facts.path, static_cast<ShadedOutput>(i)))
                 continue;
             HEARTH_ASSIGN_OR_RETURN(material.pipelines[static_cast<size_t>(method)][i],
-                                    draws_[i].shading.prepare(device_, layouts_, material.variant));
+                                    draws_[i]->shading.prepare(device_, layouts_, material.variant));
         }
     }
-    for (DrawPasses& draws : draws_)
-        if (lights_surfaces && draws.add_lights)
-            HEARTH_TRY(draws.add_lights->prepare(device_, layouts_, method, scene));
+    if (facts.path != LightPath::materials && scene.lit_sets == nullptr)
+    {
+        HEARTH_ASSIGN_OR_RETURN(scene.lit_sets, LitSets::create(device_, layouts_, scene));
+    }
+    for (size_t i = 0; i < draws_.size(); ++i)
+        if (draws_[i] && draws_[i]->add_lights && mayShade(facts.path, static_cast<ShadedOutput>(i)))
+            HEARTH_TRY(draws_[i]->add_lights->prepare(device_, layouts_, method, scene));
     return success();
 }
 
 bool Renderer::supports(LightMethod method) const
 {
-    return lightMethodFacts(method).path == LightPath::materials || passes_.has(ShadedOutput::surfaces);
+    return lightMethodFacts(method).path == LightPath::materials ||
+           passes_.features() == FrameFeatures::deferred;
 }
 
 Status Renderer::prepareOverdraw()
@@ -322,7 +350,7 @@ Status Renderer::prepareOverdraw()
     {
         if (!passes_.has(output))
             continue;
-        std::optional<BinPass>& overdraw = draws_[static_cast<size_t>(output)].overdraw;
+        std::optional<BinPass>& overdraw = draws_[static_cast<size_t>(output)]->overdraw;
         if (!overdraw)
         {
             HEARTH_ASSIGN_OR_RETURN(
@@ -625,11 +653,37 @@ void Renderer::recordVisible(VkCommandBuffer commands, const Scene& scene, Frame
     writeTimestamp(device_, commands, input.timestamps, kTimestampVisibility);
 }
 
+/// Sum the lights of pixels, or mark those that may reach them, if the frame does so.
+void Renderer::recordAheadOfShading(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
+                                    const FrameInput& input, PassRecorder& passes) const
+{
+    const DrawPasses& draws = drawPasses(passes);
+    if (passes.has(FrameStep::normals))
+    {
+        {
+            const DebugLabel label(device_, commands, "normals");
+            passes.begin(FrameStep::normals);
+            draws.normal_marks->record(device_, commands, layouts_, scene, targets);
+            draws.shading.recordNormals(device_, commands, layouts_, scene, targets, input.shading);
+        }
+        const DebugLabel label(device_, commands, "add lights");
+        passes.begin(FrameStep::add_lights);
+        draws.add_lights->record(device_, commands, layouts_, scene, targets, input.shading);
+    }
+    if (passes.has(FrameStep::mark_lights))
+    {
+        const DebugLabel label(device_, commands, "mark lights");
+        passes.begin(FrameStep::mark_lights);
+        draws.mark_lights->record(device_, commands, layouts_, scene, targets);
+    }
+}
+
 /// Record from the visibility buffer to the end of the frame.
 void Renderer::recordShaded(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                             const FrameInput& input, PassRecorder& passes) const
 {
     const bool is_open = passes.sharesPass(FrameStep::visibility, FrameStep::shading);
+    const DrawPasses& draws = drawPasses(passes);
     recordVisibleLights(commands, scene, targets, input.shading, passes);
     if (passes.has(FrameStep::material_tiles))
     {
@@ -646,8 +700,8 @@ void Renderer::recordShaded(VkCommandBuffer commands, const Scene& scene, FrameT
     }
     if (!is_open)
         writeTimestamp(device_, commands, input.timestamps, kTimestampMaterialTiles);
+    recordAheadOfShading(commands, scene, targets, input, passes);
     passes.begin(FrameStep::shading);
-    const DrawPasses& draws = drawPasses(passes);
     const bool shows_overdraw = input.shading.debug_view == shared::kViewOverdraw;
     if (!shows_overdraw)
     {
@@ -662,7 +716,7 @@ void Renderer::recordShaded(VkCommandBuffer commands, const Scene& scene, FrameT
         else
             draws.shading.record(device_, commands, layouts_, scene, targets, input.shading);
     }
-    if (passes.has(FrameStep::add_lights))
+    if (passes.has(FrameStep::add_lights) && !passes.has(FrameStep::normals))
     {
         const DebugLabel label(device_, commands, "add lights");
         passes.begin(FrameStep::add_lights);

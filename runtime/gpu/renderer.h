@@ -5,12 +5,13 @@
 #pragma once
 
 #include "runtime/gpu/frame/frame_parts.h"
-#include "runtime/gpu/passes/add_lights_pass.h"
+#include "runtime/gpu/light_passes/add_lights_pass.h"
 #include "runtime/gpu/passes/bin_pass.h"
 #include "runtime/gpu/passes/brick_light_pass.h"
 #include "runtime/gpu/passes/cull_pass.h"
 #include "runtime/gpu/passes/gather_pass.h"
-#include "runtime/gpu/passes/light_lists_pass.h"
+#include "runtime/gpu/light_passes/light_lists_pass.h"
+#include "runtime/gpu/light_passes/mark_lights_pass.h"
 #include "runtime/gpu/passes/material_marks_pass.h"
 #include "runtime/gpu/passes/material_tiles_pass.h"
 #include "runtime/gpu/passes/page_request_pass.h"
@@ -24,6 +25,7 @@
 #include "runtime/gpu/scene/instance_motion.h"
 #include "runtime/gpu/scene/light_change.h"
 
+#include <array>
 #include <memory>
 #include <optional>
 
@@ -88,8 +90,8 @@ struct RendererOptions
     std::optional<FrameWay> way{}; ///< none: chooseFrameWay
     MaterialTest materials = MaterialTest::depth;
     PostSupport post = PostSupport::none;
-    /// Light methods that store surfaces as well. Their frames have MaterialTest::id and PostSupport::half,
-    /// which the renderer has then.
+    /// Light methods with any LightPath. Their frames have MaterialTest::id and PostSupport::half, which the
+    /// renderer has then.
     bool deferred = false;
 };
 
@@ -171,10 +173,14 @@ private:
         BinPass visibility;
         std::optional<BinPass> overdraw;
         MaterialMarksPass material_marks;
+        std::optional<MaterialMarksPass> normal_marks; ///< of outputs that sum lights
         ShadingPass shading;
-        std::optional<AddLightsPass> add_lights; ///< of outputs that store surfaces
+        std::optional<AddLightsPass> add_lights;   ///< of outputs that store surfaces or sum lights
+        std::optional<MarkLightsPass> mark_lights; ///< of outputs with bits of lights
     };
     Result<DrawPasses> createDrawPasses(ShadedOutput output) const;
+    /// Create the passes of outputs that frames with a light path may have, unless they are there.
+    Status prepareDraws(LightPath path);
     /// Value of shared::kConstantStored.
     uint32_t storedColor(ShadedOutput output) const;
     const DrawPasses& drawPasses(const PassRecorder& passes) const;
@@ -205,6 +211,8 @@ private:
                      const FrameInput& input, PassRecorder& passes) const;
     void recordVisible(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                        const FrameInput& input, PassRecorder& passes) const;
+    void recordAheadOfShading(VkCommandBuffer commands, const Scene& scene, const FrameTargets& targets,
+                              const FrameInput& input, PassRecorder& passes) const;
     void recordShaded(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                       const FrameInput& input, PassRecorder& passes) const;
     void recordPyramid(VkCommandBuffer commands, FrameTargets& targets, const FrameInput& input) const;
@@ -227,8 +235,9 @@ private:
     std::optional<GatherPass> gather_;          ///< set once a scene has bricks
     std::optional<SkinningPass> skinning_;      ///< set once a scene has deformed meshes
     MaterialTilesPass material_tiles_;
-    std::vector<DrawPasses> draws_; ///< [ShadedOutput]
-    std::optional<PostPass> post_;  ///< with final passes
+    /// [ShadedOutput]; set once a scene has a light method with it.
+    std::array<std::optional<DrawPasses>, kShadedOutputCount> draws_;
+    std::optional<PostPass> post_; ///< with final passes
 };
 
 } // namespace hearth::gpu

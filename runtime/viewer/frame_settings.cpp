@@ -112,11 +112,17 @@ gpu::PostSupport postSupport(const FrameSettings& settings)
 
 } // namespace
 
-gpu::LightPath lightPath(const FrameSettings& settings)
+uint32_t lightPaths(const FrameSettings& settings)
 {
-    const gpu::LightPath path = gpu::lightMethodFacts(settings.light_method).path;
+    const gpu::LightMethodFacts& facts = gpu::lightMethodFacts(settings.light_method);
+    const gpu::LightPath path = facts.path;
+    if (path == gpu::LightPath::materials)
+        return 0;
+    if (facts.approximates)
+        return gpu::lightPathBit(path) | gpu::lightPathBit(gpu::lightMethodFacts(kExactMethod).path);
     const bool leaves_tile = mayBloom(settings) || settings.keeps_radiance || settings.render_size;
-    return path == gpu::LightPath::surfaces_on_tile && leaves_tile ? gpu::LightPath::surfaces : path;
+    return gpu::lightPathBit(
+        path == gpu::LightPath::surfaces_on_tile && leaves_tile ? gpu::LightPath::surfaces : path);
 }
 
 gpu::RendererOptions rendererOptions(const FrameSettings& settings)
@@ -144,7 +150,7 @@ gpu::TargetOptions targetOptions(const FrameSettings& settings, const gpu::Scene
             .may_bloom = mayBloom(settings),
             .output = output,
             .keeps_radiance = settings.keeps_radiance,
-            .light_path = lightPath(settings)};
+            .light_paths = lightPaths(settings)};
 }
 
 gpu::FrameInput makeFrame(const FrameSettings& settings, const shared::Camera& camera,

@@ -55,8 +55,11 @@ std::span<const Named<uint32_t>> specularOcclusionNames();
 /// Return the culling tests, one per flag.
 std::span<const Named<uint32_t>> cullTestNames();
 
-/// Return what the light method needs of targets.
-gpu::LightPath lightPath(const FrameSettings& settings);
+/// Method whose image shows how far one is off that approximates.
+inline constexpr gpu::LightMethod kExactMethod = gpu::LightMethod::prepass;
+
+/// Return what the light method needs of targets; of one that approximates, what kExactMethod needs as well.
+uint32_t lightPaths(const FrameSettings& settings);
 
 /// Return the options of a renderer for the settings. Materials are found by depth, unless something that
 /// follows needs the depth.

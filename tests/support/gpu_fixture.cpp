@@ -137,9 +137,9 @@ gpu::FrameTargets GpuTest::makeTargets(uint32_t width, uint32_t height)
 {
     auto targets = renderer().createTargets({width, height},
                                             {.keeps_visibility = true,
-                                             .light_path = renderer().supports(gpu::LightMethod::deferred)
-                                                               ? gpu::LightPath::surfaces
-                                                               : gpu::LightPath::materials});
+                                             .light_paths = renderer().supports(gpu::LightMethod::deferred)
+                                                                ? gpu::kAllLightPaths
+                                                                : 0u});
     HEARTH_ASSERT(targets.ok());
     return std::move(*targets);
 }

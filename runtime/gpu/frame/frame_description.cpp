@@ -19,6 +19,11 @@ constexpr ResourceFacts kResources[] = {
     {"depth", ResourceKind::attachment, 4},
     {"color", ResourceKind::attachment, 4},
     {"surfaces", ResourceKind::attachment, 16},
+    {"diffuse light", ResourceKind::attachment, 8},
+    {"specular light", ResourceKind::attachment, 8},
+    {"grazing light", ResourceKind::attachment, 8},
+    {"low light bits", ResourceKind::attachment, 4},
+    {"high light bits", ResourceKind::attachment, 4},
     {"pyramid", ResourceKind::image, 4.0f / 3},
     {"gathered light", ResourceKind::image, 0.5f},
     {"gather points", ResourceKind::buffer, 1.75f},
@@ -50,8 +55,9 @@ constexpr const char* kSteps[] = {
     "update",         "list lights",       "light bricks", "shadow cull",  "shadow map",
     "shadow copy",    "moving shadow map", "cull",         "last pyramid", "early visibility",
     "early pyramid",  "late cull",         "slot lights",  "visibility",   "pyramid",
-    "visible lights", "material tiles",    "gather light", "shading",      "add lights",
-    "exposure",       "bloom down",        "bloom up",     "final",
+    "visible lights", "material tiles",    "gather light", "normals",      "add lights",
+    "mark lights",    "shading",           "exposure",     "bloom down",   "bloom up",
+    "final",
 };
 static_assert(std::size(kSteps) == static_cast<size_t>(FrameStep::count));
 

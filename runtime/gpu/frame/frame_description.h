@@ -20,10 +20,15 @@ namespace hearth::gpu
 /// Images and buffers that pass from one step of a frame to another.
 enum class FrameResource : uint8_t
 {
-    visibility,     ///< visible triangle of each pixel; attachment
-    depth,          ///< attachment
-    color,          ///< the shaded frame; attachment
-    surfaces,       ///< what lights need of the surface of a pixel; attachment
+    visibility,    ///< visible triangle of each pixel; attachment
+    depth,         ///< attachment
+    color,         ///< the shaded frame; attachment
+    surfaces,      ///< what lights need of the surface of a pixel; attachment
+    diffuse_light, ///< sums of LightPath::light_sums and joint_sums; attachments
+    specular_light,
+    grazing_light,  ///< specular light that has Schlick's term
+    low_light_bits, ///< of LightPath::light_bits: 32 lights each; attachments
+    high_light_bits,
     pyramid,        ///< depth pyramid of occlusion culling
     gathered_light, ///< indirect light of tiles of 8 x 8 pixels, as shading reads it
     gather_points,  ///< buffers of the same tiles
@@ -67,6 +72,13 @@ constexpr FrameResource bloomSum(uint32_t level)
                ? bloomLevel(level)
                : static_cast<FrameResource>(static_cast<uint32_t>(FrameResource::bloom_sum_1) + level - 1);
 }
+
+/// Attachments that a frame need not take off the tile.
+inline constexpr FrameResource kTileAttachments[] = {
+    FrameResource::visibility,    FrameResource::depth,          FrameResource::color,
+    FrameResource::surfaces,      FrameResource::diffuse_light,  FrameResource::specular_light,
+    FrameResource::grazing_light, FrameResource::low_light_bits, FrameResource::high_light_bits,
+    FrameResource::radiance};
 
 /// True if an image has linear colours: FrameConfiguration::radiance_format.
 constexpr bool isLinear(FrameResource resource)
@@ -115,8 +127,11 @@ enum class FrameStep : uint8_t
     visible_lights, ///< find the lights of tiles or cells, by what pixels show
     material_tiles,
     gather,
+    normals, ///< store what lights need of surfaces, ahead of shading
+    /// Add light to surfaces that are stored: behind shading, or to sums between normals and shading.
+    add_lights,
+    mark_lights, ///< mark the lights that reach a pixel, ahead of shading
     shading,
-    add_lights, ///< add light to surfaces that shading has stored
     exposure,   ///< automatic exposure, by the last frame's light
     bloom_down, ///< a level of bloom
     bloom_up,   ///< a sum of levels
@@ -348,8 +363,8 @@ struct FrameConfiguration
     bool adapts_exposure = false; ///< automatic exposure
     bool blooms = false;
     VkFormat radiance_format = kPackedRadiance;
-    /// Place of lights. Others than materials have a final pass and MaterialTest::id; on the tile there is
-    /// neither bloom nor automatic exposure.
+    /// Place of lights. Others than materials have MaterialTest::id, and those that store surfaces a final
+    /// pass; on the tile there is neither bloom nor automatic exposure.
     LightPath light_path = LightPath::materials;
 };
 

@@ -288,8 +288,7 @@ private:
     void checkFrame()
     {
         pass_ = nullptr;
-        for (const Resource resource :
-             {Resource::visibility, Resource::depth, Resource::color, Resource::surfaces, Resource::radiance})
+        for (const Resource resource : kTileAttachments)
         {
             bool leaves_tile = false;
             for (const Pass& pass : frame_.passes)

@@ -25,6 +25,13 @@ VkFormat attachmentFormat(const Pass& pass, FrameResource resource, MaterialTest
         return kColorFormat;
     case FrameResource::surfaces:
         return kSurfacesFormat;
+    case FrameResource::diffuse_light:
+    case FrameResource::specular_light:
+    case FrameResource::grazing_light:
+        return kLightSumFormat;
+    case FrameResource::low_light_bits:
+    case FrameResource::high_light_bits:
+        return kLightBitsFormat;
     case FrameResource::exposure:
         return kExposureFormat;
     default:
@@ -153,6 +160,7 @@ std::vector<VkSubpassDependency> makeDependencies(const Pass& pass)
 Result<UniqueRenderPass> createRenderPass(const Device& device, const Pass& pass, MaterialTest materials)
 {
     static_assert(shared::kInputVisibility == 0 && shared::kInputDepth == 0 && shared::kInputSurfaces == 1);
+    static_assert(shared::kInputLight == 1 && shared::kInputLightSampled == 0);
     const auto attachments = makeAttachments(pass, materials);
     std::vector<SubpassReferences> references(pass.subpasses.size());
     std::vector<VkSubpassDescription> subpasses(pass.subpasses.size());
@@ -287,12 +295,7 @@ bool FramePasses::has(ShadedOutput output) const
 DrawPlace FramePasses::place(ShadedOutput output, FrameStep step) const
 {
     HEARTH_ASSERT(has(output));
-    return findPlace(
-        plan({.has_final_pass = output != ShadedOutput::color,
-              .light_path = output == ShadedOutput::surfaces           ? LightPath::surfaces
-                            : output == ShadedOutput::surfaces_on_tile ? LightPath::surfaces_on_tile
-                                                                       : LightPath::materials}),
-        step);
+    return findPlace(plan({.has_final_pass = isRadiance(output), .light_path = lightPath(output)}), step);
 }
 
 VkRenderPass FramePasses::shadowMapPass(VkFormat format) const

@@ -17,6 +17,9 @@ inline constexpr VkFormat kVisibilityFormat = VK_FORMAT_R32_UINT;
 inline constexpr VkFormat kColorFormat = VK_FORMAT_R8G8B8A8_SRGB;
 /// Words that runtime/shaders/shade/surface_words.glsl packs.
 inline constexpr VkFormat kSurfacesFormat = VK_FORMAT_R32G32B32A32_UINT;
+/// Sums of light, and bits of lights: every device blends both.
+inline constexpr VkFormat kLightSumFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
+inline constexpr VkFormat kLightBitsFormat = VK_FORMAT_R8G8B8A8_UNORM;
 /// Stops of automatic exposure.
 inline constexpr VkFormat kExposureFormat = VK_FORMAT_R32_SFLOAT;
 /// Depth and, with MaterialTest::id, a stencil of the low bits of material numbers.

@@ -93,10 +93,20 @@ Step pyramidStep(FrameStep step)
                      {Resource::pyramid, Access::compute_write, Content::overwrite}}};
 }
 
-/// True if shading leaves the lights to a step behind it.
-bool storesSurfaces(const FrameConfiguration& c)
+/// Images that lights are added to, or marked in, ahead of shading.
+std::vector<Resource> listLightImages(LightPath path)
 {
-    return c.light_path != LightPath::materials;
+    switch (path)
+    {
+    case LightPath::light_sums:
+        return {Resource::diffuse_light, Resource::specular_light, Resource::grazing_light};
+    case LightPath::joint_sums:
+        return {Resource::diffuse_light};
+    case LightPath::light_bits:
+        return {Resource::low_light_bits, Resource::high_light_bits};
+    default:
+        return {};
+    }
 }
 
 /// Reads of fragments that are lit.
@@ -106,6 +116,20 @@ void addLightReads(const FrameConfiguration& c, Step& step)
         step.uses.push_back({Resource::shadow_map, Access::fragment_read, Content::keep, 0});
     if (c.lists_lights)
         step.uses.push_back({Resource::light_lists, Access::fragment_read});
+}
+
+/// Reads of steps that draw the pixels of materials.
+void addMaterialReads(const FrameConfiguration& c, Step& step)
+{
+    addDrawnLists(step, Resource::visible_list);
+    for (const Resource lists : {Resource::visible_list, Resource::pages})
+        step.uses.push_back({lists, Access::fragment_read});
+    if (hasSubpasses(c.way))
+        step.attachments.push_back({Resource::visibility, Access::input});
+    else
+        step.uses.push_back({Resource::visibility, Access::fragment_read});
+    if (c.material_tiles)
+        step.uses.push_back({Resource::tile_lists, Access::vertex_read});
 }
 
 /// Return what shading draws to.
@@ -126,38 +150,66 @@ Step shadingStep(const FrameConfiguration& c)
               .draws = {.cover = c.material_tiles ? Cover::tiles : Cover::triangle,
                         .discards = !by_depth,
                         .writes_fragment_depth = by_depth}};
-    if (storesSurfaces(c))
+    if (storesSurfaces(c.light_path))
         step.attachments.push_back({Resource::surfaces, Access::color_write, Content::begin});
-    addDrawnLists(step, Resource::visible_list);
-    for (const Resource lists : {Resource::visible_list, Resource::pages})
-        step.uses.push_back({lists, Access::fragment_read});
-    if (hasSubpasses(c.way))
-        step.attachments.push_back({Resource::visibility, Access::input});
-    else
-        step.uses.push_back({Resource::visibility, Access::fragment_read});
-    if (c.material_tiles)
-        step.uses.push_back({Resource::tile_lists, Access::vertex_read});
+    addMaterialReads(c, step);
+    // an input attachment by each way: its render pass needs no other subpass
+    for (const Resource image : listLightImages(c.light_path))
+        step.attachments.push_back({image, Access::input});
     if (c.gathers_light)
         step.uses.push_back({Resource::gathered_light, Access::fragment_read});
     addLightReads(c, step);
     return step;
 }
 
-/// Add the light of lamps and suns to the surfaces that shading has stored.
+/// Store what lights need of surfaces, ahead of shading.
+Step normalsStep(const FrameConfiguration& c)
+{
+    Step step{.step = FrameStep::normals,
+              .kind = PassKind::render,
+              .attachments = {{Resource::depth, Access::depth_keep},
+                              {Resource::surfaces, Access::color_write, Content::begin}},
+              .draws = {.cover = c.material_tiles ? Cover::tiles : Cover::triangle, .discards = true}};
+    addMaterialReads(c, step);
+    return step;
+}
+
+/// Reads of steps that draw volumes of lights.
+void addVolumeReads(const FrameConfiguration& c, Step& step)
+{
+    addLightReads(c, step);
+    if (c.lists_lights)
+        step.uses.push_back({Resource::light_lists, Access::vertex_read});
+}
+
+/// Add the light of lamps and suns to the surfaces that are stored.
 Step lightStep(const FrameConfiguration& c)
 {
     Step step{.step = FrameStep::add_lights,
               .kind = PassKind::render,
-              .attachments = {{Resource::depth, Access::depth_input},
-                              {Resource::radiance, Access::color_write, Content::keep}},
+              .attachments = {{Resource::depth, Access::depth_input}},
               .draws = {.cover = Cover::triangle}};
+    if (storesSurfaces(c.light_path))
+        step.attachments.push_back({Resource::radiance, Access::color_write, Content::keep});
+    for (const Resource image : listLightImages(c.light_path))
+        step.attachments.push_back({image, Access::color_write, Content::begin});
     if (hasSubpasses(c.way))
         step.attachments.push_back({Resource::surfaces, Access::input});
     else
         step.uses.push_back({Resource::surfaces, Access::fragment_read});
-    addLightReads(c, step);
-    if (c.lists_lights) // volumes of lights
-        step.uses.push_back({Resource::light_lists, Access::vertex_read});
+    addVolumeReads(c, step);
+    return step;
+}
+
+/// Mark the lights that reach a pixel in its bits.
+Step marksStep(const FrameConfiguration& c)
+{
+    Step step{.step = FrameStep::mark_lights,
+              .kind = PassKind::render,
+              .attachments = {{Resource::depth, Access::depth_input}}};
+    for (const Resource image : listLightImages(c.light_path))
+        step.attachments.push_back({image, Access::color_write, Content::begin});
+    addVolumeReads(c, step);
     return step;
 }
 
@@ -188,6 +240,18 @@ Step tileFinalStep()
                             {Resource::color, Access::color_write, Content::overwrite},
                             {Resource::radiance, Access::input}},
             .draws = {.cover = Cover::triangle}};
+}
+
+/// List shading, and the steps about it that have to do with lights.
+void addShadingSteps(const FrameConfiguration& c, std::vector<Step>& steps)
+{
+    if (sumsLights(c.light_path))
+        steps.insert(steps.end(), {normalsStep(c), lightStep(c)});
+    if (c.light_path == LightPath::light_bits)
+        steps.push_back(marksStep(c));
+    steps.push_back(shadingStep(c));
+    if (storesSurfaces(c.light_path))
+        steps.push_back(lightStep(c));
 }
 
 /// List the steps behind shading: automatic exposure, bloom, and the final pass.
@@ -305,9 +369,7 @@ std::vector<Step> listSteps(const FrameConfiguration& c)
                                   {Resource::visibility, Access::sampled, Content::keep, kGatheredShare},
                                   {Resource::gather_points, Access::compute_write, Content::keep},
                                   {Resource::gathered_light, Access::compute_write, Content::overwrite}}});
-    steps.push_back(shadingStep(c));
-    if (storesSurfaces(c))
-        steps.push_back(lightStep(c));
+    addShadingSteps(c, steps);
     addFinalSteps(c, steps);
     return steps;
 }
@@ -326,16 +388,13 @@ Subpass makeEmptySubpass(const Step& step)
 /// List the steps that one render pass of the ways with subpasses can have, one behind the other.
 std::vector<Step> listMergedSteps(const FrameConfiguration& c)
 {
-    std::vector<Step> steps = {visibilityStep(FrameStep::visibility, Content::keep), shadingStep(c)};
+    std::vector<Step> steps = {visibilityStep(FrameStep::visibility, Content::keep)};
+    addShadingSteps(c, steps);
+    if (c.light_path == LightPath::surfaces)
+        steps.pop_back(); // its lights have a render pass of their own
     if (c.light_path == LightPath::surfaces_on_tile)
-        steps.insert(steps.end(), {lightStep(c), tileFinalStep()});
+        steps.push_back(tileFinalStep());
     return steps;
-}
-
-/// True if a step cannot share a render pass with what is drawn before it.
-bool splitsBefore(const FrameConfiguration& c, FrameStep step)
-{
-    return step == FrameStep::shading && splitsAtVisibility(c);
 }
 
 /// Return the number of a step among the merged ones; their count if it is none of them.
@@ -356,8 +415,8 @@ std::vector<Pass> joinSteps(const FrameConfiguration& c, const std::vector<Step>
     {
         const size_t number = findMerged(merged, step.step);
         const bool is_merged = number < merged.size();
-        if (is_merged && number > 0 && passes.back().steps.back() == merged[number - 1].step &&
-            !splitsBefore(c, step.step))
+        const bool splits = number == 1 && splitsAtVisibility(c);
+        if (is_merged && number > 0 && !splits && passes.back().steps.back() == merged[number - 1].step)
         {
             Pass& pass = passes.back();
             pass.steps.push_back(step.step);
@@ -563,8 +622,9 @@ Touches touchesOfEarlierFrames(FrameWay way, MaterialTest materials)
 {
     Touches touches;
     std::vector<FrameConfiguration> all = allConfigurations(way, materials);
-    for (const LightPath path : {LightPath::materials, LightPath::surfaces_on_tile, LightPath::surfaces})
+    for (size_t i = 0; i < kLightPathCount; ++i)
     {
+        const auto path = static_cast<LightPath>(i);
         const bool on_tile = path == LightPath::surfaces_on_tile;
         all.push_back({.way = way,
                        .materials = materials,
@@ -689,8 +749,7 @@ void setBarriers(const FrameConfiguration& c, std::span<Pass> passes, size_t num
 std::vector<Resource> findTransient(std::span<const Pass> passes)
 {
     std::vector<Resource> transient;
-    for (const Resource resource :
-         {Resource::visibility, Resource::depth, Resource::color, Resource::surfaces, Resource::radiance})
+    for (const Resource resource : kTileAttachments)
     {
         bool leaves_tile = false;
         for (const Pass& pass : passes)
@@ -762,25 +821,27 @@ std::vector<FrameConfiguration> allConfigurations(FrameWay way, MaterialTest mat
                            .keeps_visibility = (bits & 8) != 0,
                            .shows_overdraw = (bits & 16) != 0});
     HEARTH_ASSERT(all.size() == kConfigurationCount);
-    const auto addFinished = [&](LightPath path, uint32_t count)
+    const auto add = [&](LightPath path, uint32_t first, uint32_t count)
     {
-        for (uint32_t finals = 1; finals <= count; ++finals)
+        for (uint32_t finals = first; finals < count; ++finals)
             for (uint32_t i = 0; i < kConfigurationCount; ++i)
             {
                 FrameConfiguration c = all[i];
-                c.has_final_pass = true;
-                c.adapts_exposure = ((finals - 1) & 1) != 0;
-                c.blooms = ((finals - 1) & 2) != 0;
+                c.has_final_pass = finals > 0;
+                c.adapts_exposure = finals > 0 && ((finals - 1) & 1) != 0;
+                c.blooms = finals > 0 && ((finals - 1) & 2) != 0;
                 c.light_path = path;
                 all.push_back(c);
             }
     };
     if (features >= FrameFeatures::finished)
-        addFinished(LightPath::materials, kFinalPassCount - 1);
+        add(LightPath::materials, 1, kFinalPassCount);
     if (features >= FrameFeatures::deferred)
     {
-        addFinished(LightPath::surfaces, kFinalPassCount - 1);
-        addFinished(LightPath::surfaces_on_tile, 1);
+        add(LightPath::surfaces_on_tile, 1, 2);
+        add(LightPath::surfaces, 1, kFinalPassCount);
+        for (const LightPath path : {LightPath::light_sums, LightPath::joint_sums, LightPath::light_bits})
+            add(path, 0, kFinalPassCount);
     }
     return all;
 }
@@ -788,14 +849,16 @@ std::vector<FrameConfiguration> allConfigurations(FrameWay way, MaterialTest mat
 uint32_t configurationIndex(const FrameConfiguration& c)
 {
     const auto bit = [](bool set, uint32_t number) { return (set ? 1u : 0u) << number; };
-    uint32_t block = 0; // of kConfigurationCount
-    if (c.has_final_pass)
-    {
-        const uint32_t added = c.light_path == LightPath::materials  ? 0
-                               : c.light_path == LightPath::surfaces ? 1
-                                                                     : 2;
-        block = 1 + (kFinalPassCount - 1) * added + bit(c.adapts_exposure, 0) + bit(c.blooms, 1);
-    }
+    // of kConfigurationCount: those of the paths before, as allConfigurations lists them
+    constexpr uint32_t kFirstBlocks[] = {0,
+                                         kFinalPassCount - 1,
+                                         kFinalPassCount,
+                                         2 * kFinalPassCount,
+                                         3 * kFinalPassCount,
+                                         4 * kFinalPassCount};
+    static_assert(std::size(kFirstBlocks) == kLightPathCount);
+    const uint32_t finals = c.has_final_pass ? 1 + bit(c.adapts_exposure, 0) + bit(c.blooms, 1) : 0;
+    const uint32_t block = kFirstBlocks[static_cast<size_t>(c.light_path)] + finals;
     return kConfigurationCount * block + 32 * static_cast<uint32_t>(c.occlusion) + bit(c.material_tiles, 0) +
            bit(c.gathers_light, 1) + bit(c.in_parts || c.lists_visible, 2) + bit(c.keeps_visibility, 3) +
            bit(c.shows_overdraw, 4);

@@ -21,6 +21,9 @@ enum class LightMethod : uint8_t
     tiled_deferred,
     clustered_deferred,
     tile_deferred,
+    stack,
+    prepass,
+    classic_prepass,
     count,
 };
 inline constexpr size_t kLightMethodCount = static_cast<size_t>(LightMethod::count);
@@ -41,15 +44,43 @@ constexpr bool needPixels(LightAreas areas)
     return areas == LightAreas::visible_cells || areas == LightAreas::tiles;
 }
 
-/// Place at which a frame adds its lights.
+/// Place at which a frame adds its lights. All but the first need RendererOptions::deferred.
 enum class LightPath : uint8_t
 {
     materials, ///< shading of materials evaluates lights as well
-    /// Shading stores what lights need of a surface in an image, and a step behind it adds the lights. Needs
-    /// RendererOptions::deferred. All of it is one render pass, up to the finished image.
+    /// Shading stores what lights need of a surface in an image, and a step behind it adds the lights. All of
+    /// it is one render pass, up to the finished image.
     surfaces_on_tile,
     surfaces, ///< the same in render passes of their own: surfaces are stored in memory
+    /// Lights are summed ahead of shading, which weighs the sums by each material: diffuse light, and
+    /// specular light without and with the share of Schlick's term. Runs in the render pass of visibility and
+    /// shading.
+    light_sums,
+    joint_sums, ///< the same with the luminance of specular light alone, beside the diffuse light
+    light_bits, ///< lights that reach a pixel are marked ahead of shading, in the same render pass
+    count,
 };
+inline constexpr size_t kLightPathCount = static_cast<size_t>(LightPath::count);
+
+/// Bit of a path in a set of them, beside `materials`.
+constexpr uint32_t lightPathBit(LightPath path)
+{
+    return 1u << static_cast<uint32_t>(path);
+}
+
+inline constexpr uint32_t kAllLightPaths = (1u << kLightPathCount) - 2;
+
+/// True if shading leaves the lights to a step behind it.
+constexpr bool storesSurfaces(LightPath path)
+{
+    return path == LightPath::surfaces_on_tile || path == LightPath::surfaces;
+}
+
+/// True if shading weighs sums of light.
+constexpr bool sumsLights(LightPath path)
+{
+    return path == LightPath::light_sums || path == LightPath::joint_sums;
+}
 
 /// Output of shading: frames of each have pipelines of their own.
 enum class ShadedOutput : uint8_t
@@ -58,13 +89,53 @@ enum class ShadedOutput : uint8_t
     radiance,         ///< of frames with a final pass
     surfaces_on_tile, ///< and radiance, of frames with this LightPath
     surfaces,
+    // the first two of frames with the other paths
+    summed_color,
+    summed_radiance,
+    joint_color,
+    joint_radiance,
+    marked_color,
+    marked_radiance,
     count,
 };
 inline constexpr size_t kShadedOutputCount = static_cast<size_t>(ShadedOutput::count);
 
-constexpr bool storesSurfaces(ShadedOutput output)
+constexpr LightPath lightPath(ShadedOutput output)
 {
-    return output >= ShadedOutput::surfaces_on_tile;
+    constexpr LightPath kPaths[] = {LightPath::materials,  LightPath::materials,  LightPath::surfaces_on_tile,
+                                    LightPath::surfaces,   LightPath::light_sums, LightPath::light_sums,
+                                    LightPath::joint_sums, LightPath::joint_sums, LightPath::light_bits,
+                                    LightPath::light_bits};
+    static_assert(std::size(kPaths) == kShadedOutputCount);
+    return kPaths[static_cast<size_t>(output)];
+}
+
+/// True if shading writes linear colours, which a final pass finishes.
+constexpr bool isRadiance(ShadedOutput output)
+{
+    return output != ShadedOutput::color && output != ShadedOutput::summed_color &&
+           output != ShadedOutput::joint_color && output != ShadedOutput::marked_color;
+}
+
+/// True if frames of methods with a path may have an output: those on the tile may have to leave it.
+constexpr bool mayShade(LightPath path, ShadedOutput output)
+{
+    return lightPath(output) == path || (storesSurfaces(lightPath(output)) && storesSurfaces(path));
+}
+
+/// Return the colour targets of shading.
+constexpr uint32_t shadedColors(ShadedOutput output)
+{
+    return storesSurfaces(lightPath(output)) ? 2 : 1;
+}
+
+/// Return the output of frames. Those that light stored surfaces have a final pass.
+constexpr ShadedOutput shadedOutput(LightPath path, bool has_final_pass)
+{
+    ShadedOutput output = ShadedOutput::color;
+    while (lightPath(output) != path || (isRadiance(output) != has_final_pass && !storesSurfaces(path)))
+        output = static_cast<ShadedOutput>(static_cast<size_t>(output) + 1);
+    return output;
 }
 
 struct LightMethodFacts
@@ -74,6 +145,7 @@ struct LightMethodFacts
     uint32_t light_list; ///< shared::kLightList*: lights that a pixel evaluates
     LightAreas areas;    ///< with lists
     LightPath path = LightPath::materials;
+    bool approximates = false; ///< the image differs by more than rounding
 };
 
 /// Facts by LightMethod. Methods that add lights in one order draw the same bytes.
@@ -95,6 +167,12 @@ inline constexpr LightMethodFacts kLightMethods[] = {
      shared::kLightListCells, LightAreas::visible_cells, LightPath::surfaces},
     {"tile-deferred", "the same as deferred, with surfaces that need not leave the tile",
      shared::kLightListVolumes, LightAreas::cells, LightPath::surfaces_on_tile},
+    {"stack", "bits of a pixel name the lights whose volume it is in; those behind the 64th have cells",
+     shared::kLightListBits, LightAreas::cells, LightPath::light_bits},
+    {"prepass", "lights are summed ahead of shading, split so that materials weigh the sums exactly",
+     shared::kLightListVolumes, LightAreas::cells, LightPath::light_sums},
+    {"classic-prepass", "the same with the luminance of specular light alone, in a third of the bytes",
+     shared::kLightListVolumes, LightAreas::cells, LightPath::joint_sums, true},
 };
 static_assert(std::size(kLightMethods) == kLightMethodCount);
 

@@ -19,7 +19,7 @@ Result<BinPass> BinPass::createVisibility(const Device& device, const DrawLayout
                          .depth_compare =
                              VK_COMPARE_OP_GREATER, // reversed depth: 1 at the near plane, 0 at infinity
                          .depth_write = true,
-                         .color = true};
+                         .colors = 1};
     pass.alpha_tested_ = {shaders::visibility_masked_vert, shaders::visibility_masked_frag};
     HEARTH_TRY(pass.createPipelines(device, shared::kDeformedNone, pass.rigid_));
     return pass;
@@ -36,7 +36,7 @@ Result<BinPass> BinPass::createOverdraw(const Device& device, const DrawLayouts&
                          .subpass = place.subpass,
                          .depth_compare = VK_COMPARE_OP_ALWAYS,
                          .depth_write = false,
-                         .color = true,
+                         .colors = 1,
                          .add = true};
     pass.alpha_tested_ = {shaders::visibility_masked_vert, shaders::overdraw_masked_frag};
     HEARTH_TRY(pass.createPipelines(device, shared::kDeformedNone, pass.rigid_));
@@ -57,7 +57,7 @@ Result<BinPass> BinPass::createCasters(const Device& device, const DrawLayouts& 
                          .subpass = 0,
                          .depth_compare = VK_COMPARE_OP_GREATER, // reversed depth, as in the frame
                          .depth_write = true,
-                         .color = false};
+                         .colors = 0};
     pass.alpha_tested_ = {shaders::caster_masked_vert, shaders::caster_masked_frag};
     HEARTH_TRY(pass.createPipelines(device, shared::kDeformedNone, pass.rigid_));
     return pass;

@@ -58,23 +58,24 @@ Result<FrameTargets> FrameTargets::create(const Device& device, const FramePasse
     HEARTH_TRY(t.createFramebuffers(device, passes));
     HEARTH_TRY(t.createPyramids(device));
     HEARTH_TRY(t.createTileLists(device));
-    HEARTH_TRY(t.createSets(device, layouts, passes.way()));
+    HEARTH_TRY(t.createSets(device, layouts));
     return t;
 }
 
 /// Create the images of final passes, if frames may have one.
 Status FrameTargets::createPost(const Device& device, const FramePasses& passes, const DrawLayouts& layouts)
 {
+    const bool stores_surfaces = options_.mayStoreSurfaces();
     const bool is_sampled =
-        options_.light_path == LightPath::surfaces || (lightsSurfaces() && !hasSubpasses(passes.way()));
+        options_.has(LightPath::surfaces) || (stores_surfaces && !hasSubpasses(passes.way()));
     options_.has_final_pass =
         options_.has_final_pass || options_.may_bloom || is_sampled || alwaysHasFinalPass(options_, extent_);
     HEARTH_ASSERT(passes.hasFinalPasses() || !options_.has_final_pass);
-    HEARTH_ASSERT(passes.has(ShadedOutput::surfaces) || !lightsSurfaces());
-    if (!options_.has_final_pass && !lightsSurfaces())
+    HEARTH_ASSERT(passes.features() == FrameFeatures::deferred || options_.light_paths == 0);
+    if (!options_.has_final_pass && !stores_surfaces)
         return success();
     const PostUses uses{.leaves_tile = options_.has_final_pass,
-                        .is_input = lightsSurfaces() && hasSubpasses(passes.way()),
+                        .is_input = stores_surfaces && hasSubpasses(passes.way()),
                         .may_bloom = options_.may_bloom,
                         .keeps_radiance = options_.keeps_radiance};
     HEARTH_ASSIGN_OR_RETURN(post_, PostTargets::create(device, passes, layouts, arena_, extent_, uses));
@@ -84,29 +85,53 @@ Status FrameTargets::createPost(const Device& device, const FramePasses& passes,
 bool FrameTargets::allows(const FrameConfiguration& c) const
 {
     const bool splits = c.material_tiles || c.gathers_light || c.lists_visible || c.in_parts;
-    const bool may_finish = options_.has_final_pass || c.light_path != LightPath::materials;
+    const bool may_finish = options_.has_final_pass || storesSurfaces(c.light_path);
     if (c.has_final_pass ? !may_finish : alwaysHasFinalPass(options_, extent_))
         return false;
     if (c.light_path == LightPath::surfaces_on_tile && alwaysHasFinalPass(options_, extent_))
         return false;
     if ((c.blooms || c.adapts_exposure) && !options_.may_bloom)
         return false;
-    if (c.light_path > options_.light_path)
+    if (!options_.allows(c.light_path))
         return false;
     return c.occlusion <= options_.occlusion && (!c.keeps_visibility || options_.keeps_visibility) &&
            (!c.gathers_light || options_.gathers_light) && (!splits || options_.may_split);
 }
 
-/// Create the attachments. Those that no allowed frame loads or stores exist on the tile only.
-Status FrameTargets::createImages(const Device& device, const FramePasses& passes)
+/// Return the attachments that an allowed frame loads or stores.
+std::set<FrameResource> FrameTargets::findStored(const FramePasses& passes) const
 {
-    std::set<FrameResource> leave_tile;
+    std::set<FrameResource> stored;
     for (const FrameConfiguration& c : allConfigurations(passes.way(), passes.materials(), passes.features()))
         if (allows(c))
             for (const Pass& pass : passes.plan(c).description.passes)
                 for (const AttachmentUse& use : pass.attachments)
                     if (use.store || use.load == LoadOperation::load)
-                        leave_tile.insert(use.resource);
+                        stored.insert(use.resource);
+    return stored;
+}
+
+/// True if allowed frames have an image of stored surfaces, or one that lights are added to or marked in.
+bool FrameTargets::needs(FrameResource resource) const
+{
+    switch (resource)
+    {
+    case FrameResource::surfaces:
+        return options_.mayStoreSurfaces() || options_.maySumLights();
+    case FrameResource::diffuse_light:
+        return options_.maySumLights();
+    case FrameResource::specular_light:
+    case FrameResource::grazing_light:
+        return options_.has(LightPath::light_sums);
+    default:
+        return options_.has(LightPath::light_bits);
+    }
+}
+
+/// Create the attachments. Those that no allowed frame loads or stores exist on the tile only.
+Status FrameTargets::createImages(const Device& device, const FramePasses& passes)
+{
+    const std::set<FrameResource> leave_tile = findStored(passes);
     VkExtent2D extent = extent_;
     const auto create = [&](Image& image, FrameResource resource, VkFormat format, VkImageUsageFlags usage,
                             VkImageUsageFlags usage_in_memory, VkImageAspectFlags aspect) -> Status
@@ -122,24 +147,33 @@ Status FrameTargets::createImages(const Device& device, const FramePasses& passe
                         .kind = on_tile ? MemoryKind::transient : MemoryKind::device}));
         return success();
     };
-    const VkImageUsageFlags input =
-        hasSubpasses(passes.way()) ? VkImageUsageFlags{VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT} : 0;
+    constexpr VkImageUsageFlags kInput = VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT;
+    const VkImageUsageFlags input = hasSubpasses(passes.way()) ? kInput : 0;
     HEARTH_TRY(create(visibility_, FrameResource::visibility, kVisibilityFormat,
                       VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | input,
                       VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
                       VK_IMAGE_ASPECT_COLOR_BIT));
     const bool has_stencil = passes.materials() == MaterialTest::id;
     HEARTH_TRY(create(depth_, FrameResource::depth, depthFormat(passes.materials()),
-                      VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT |
-                          (lightsSurfaces() ? VkImageUsageFlags{VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT} : 0),
+                      VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | (options_.light_paths != 0 ? kInput : 0),
                       VK_IMAGE_USAGE_SAMPLED_BIT,
                       VK_IMAGE_ASPECT_DEPTH_BIT | (has_stencil ? VK_IMAGE_ASPECT_STENCIL_BIT : 0)));
-    if (lightsSurfaces())
+    if (needs(FrameResource::surfaces))
         HEARTH_TRY(create(surfaces_, FrameResource::surfaces, kSurfacesFormat,
                           VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | input, VK_IMAGE_USAGE_SAMPLED_BIT,
                           VK_IMAGE_ASPECT_COLOR_BIT));
     depth_leaves_tile_ = leave_tile.contains(FrameResource::depth);
-    if (depth_leaves_tile_ || lightsSurfaces())
+    for (size_t i = 0; i < light_images_.size(); ++i)
+    {
+        const auto resource =
+            static_cast<FrameResource>(static_cast<size_t>(FrameResource::diffuse_light) + i);
+        const VkFormat format =
+            resource >= FrameResource::low_light_bits ? kLightBitsFormat : kLightSumFormat;
+        if (needs(resource))
+            HEARTH_TRY(create(light_images_[i], resource, format,
+                              VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | kInput, 0, VK_IMAGE_ASPECT_COLOR_BIT));
+    }
+    if (depth_leaves_tile_ || options_.light_paths != 0)
     {
         HEARTH_ASSIGN_OR_RETURN(sampled_depth_, createDepthView(device, depth_));
     }
@@ -162,6 +196,13 @@ const Image& FrameTargets::attachmentImage(FrameResource resource, uint32_t expo
         return color_;
     case FrameResource::surfaces:
         return surfaces_;
+    case FrameResource::diffuse_light:
+    case FrameResource::specular_light:
+    case FrameResource::grazing_light:
+    case FrameResource::low_light_bits:
+    case FrameResource::high_light_bits:
+        return light_images_[static_cast<size_t>(resource) -
+                             static_cast<size_t>(FrameResource::diffuse_light)];
     case FrameResource::exposure:
         return post_ ? post_->exposureImage(exposure) : kNone;
     default:
@@ -273,7 +314,49 @@ Status FrameTargets::createTileLists(const Device& device)
     return success();
 }
 
-Status FrameTargets::createSets(const Device& device, const DrawLayouts& layouts, FrameWay way)
+/// Create the sets of what shading reads: one for all paths but those that add or mark lights ahead of it.
+Status FrameTargets::createAttachmentSets(const Device& device, const DrawLayouts& layouts)
+{
+    const bool is_input = layouts.descriptors.visibility == VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT;
+    if (layouts.descriptors.has_light_images)
+    {
+        HEARTH_ASSIGN_OR_RETURN(no_light_image_,
+                                arena_.createImage({.format = kLightBitsFormat,
+                                                    .extent = {1, 1},
+                                                    .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
+                                                             VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT}));
+    }
+    for (size_t i = 0; i < kLightPathCount; ++i)
+    {
+        const auto path = static_cast<LightPath>(i);
+        const bool has_images = path == LightPath::light_bits || sumsLights(path);
+        if (path != LightPath::materials && !(has_images && options_.has(path)))
+            continue;
+        VkDescriptorSet& set = sets_[i].set;
+        HEARTH_ASSIGN_OR_RETURN(set, allocateSet(device, pool_.get(), layouts.attachments.get()));
+        DescriptorWriter attachments(set);
+        if (is_input)
+            attachments.input(shared::kAttachmentVisibility, visibility_.view.get());
+        else
+            attachments.texture(shared::kAttachmentVisibility, visibility_.view.get(), texel_sampler_.get());
+        attachments.storage(shared::kAttachmentTileLists, tile_lists_)
+            .texture(shared::kAttachmentGi, (gather_ ? gather_->texels() : no_light_).view.get(),
+                     texel_sampler_.get());
+        const size_t first = path == LightPath::light_bits ? 3 : 0;
+        for (uint32_t image = 0; image < shared::kLightImages && layouts.descriptors.has_light_images;
+             ++image)
+        {
+            const bool is_there = has_images && first + image < light_images_.size() &&
+                                  light_images_[first + image].view.get() != VK_NULL_HANDLE;
+            attachments.input(shared::kAttachmentLight + image,
+                              (is_there ? light_images_[first + image] : no_light_image_).view.get());
+        }
+        attachments.write(device);
+    }
+    return success();
+}
+
+Status FrameTargets::createSets(const Device& device, const DrawLayouts& layouts)
 {
     HEARTH_ASSIGN_OR_RETURN(texel_sampler_, createClampingSampler(device, VK_FILTER_NEAREST));
     if (options_.gathers_light)
@@ -282,25 +365,17 @@ Status FrameTargets::createSets(const Device& device, const DrawLayouts& layouts
                                                                visibility_.view.get(), texel_sampler_.get()));
     }
     const uint32_t occlusion_sets = kMaxFramesInFlight * pyramidCount();
+    constexpr auto kPaths = static_cast<uint32_t>(kLightPathCount);
     const DescriptorPoolSizes sizes{.uniforms = occlusion_sets,
-                                    .storages = 3 + occlusion_sets,
-                                    .textures = 4 + occlusion_sets,
-                                    .inputs = 1};
-    HEARTH_ASSIGN_OR_RETURN(pool_, createDescriptorPool(device, 3 + occlusion_sets, sizes));
-    HEARTH_ASSIGN_OR_RETURN(set_, allocateSet(device, pool_.get(), layouts.attachments.get()));
-    DescriptorWriter attachments(set_);
-    if (hasSubpasses(way))
-        attachments.input(shared::kAttachmentVisibility, visibility_.view.get());
-    else
-        attachments.texture(shared::kAttachmentVisibility, visibility_.view.get(), texel_sampler_.get());
-    attachments.storage(shared::kAttachmentTileLists, tile_lists_);
+                                    .storages = 2 + kPaths + occlusion_sets,
+                                    .textures = 2 + 2 * kPaths + occlusion_sets,
+                                    .inputs = kPaths * (1 + shared::kLightImages)};
+    HEARTH_ASSIGN_OR_RETURN(pool_, createDescriptorPool(device, 2 + kPaths + occlusion_sets, sizes));
     if (!gather_)
     {
         HEARTH_ASSIGN_OR_RETURN(no_light_, createTexel(arena_, GatherTargets::kFormat));
     }
-    attachments.texture(shared::kAttachmentGi, (gather_ ? gather_->texels() : no_light_).view.get(),
-                        texel_sampler_.get());
-    attachments.write(device);
+    HEARTH_TRY(createAttachmentSets(device, layouts));
     if (!depth_leaves_tile_)
     {
         HEARTH_ASSIGN_OR_RETURN(no_depth_, createTexel(arena_, VK_FORMAT_R32_SFLOAT));

@@ -11,8 +11,10 @@
 #include "runtime/gpu/scene/joined_sets.h"
 #include "runtime/gpu/scene/scene_frames.h"
 
+#include <array>
 #include <memory>
 #include <optional>
+#include <set>
 
 namespace hearth::gpu
 {
@@ -37,9 +39,20 @@ struct TargetOptions
     VkExtent2D output{};
     /// `radiance` can be copied after a frame.
     bool keeps_radiance = false;
-    /// The most that the light method of a frame asks for: materials < surfaces_on_tile < surfaces. With
-    /// bloom, automatic exposure or an output of another size, methods on the tile ask for `surfaces`.
-    LightPath light_path = LightPath::materials;
+    /// Paths that the light methods of frames ask for, beside `materials`: bits lightPathBit. `surfaces`
+    /// includes surfaces_on_tile; with bloom, automatic exposure or an output of another size methods on the
+    /// tile ask for `surfaces`.
+    uint32_t light_paths = 0;
+
+    bool has(LightPath path) const { return (light_paths & lightPathBit(path)) != 0; }
+    /// True if frames with a path have all that it needs.
+    bool allows(LightPath path) const
+    {
+        return path == LightPath::materials || has(path) ||
+               (path == LightPath::surfaces_on_tile && has(LightPath::surfaces));
+    }
+    bool mayStoreSurfaces() const { return has(LightPath::surfaces) || has(LightPath::surfaces_on_tile); }
+    bool maySumLights() const { return has(LightPath::light_sums) || has(LightPath::joint_sums); }
 };
 
 /// True if every frame with targets of this size has a final pass.
@@ -82,11 +95,18 @@ public:
     /// Framebuffer of a PassFamily, of the frame begun last.
     VkFramebuffer framebuffer(uint32_t family) const;
     VkExtent2D framebufferExtent(uint32_t family) const { return framebuffers_[family].extent; }
-    AttachmentSet attachments() const { return {set_, identity_}; }
-    /// With TargetOptions::light_path other than materials.
+    /// Attachments that shading reads in frames with a path.
+    AttachmentSet attachments(LightPath path = LightPath::materials) const
+    {
+        const PathSet& own = sets_[static_cast<size_t>(path)];
+        const PathSet& set = own.set != VK_NULL_HANDLE ? own : sets_[0];
+        return {set.set, set.identity};
+    }
+    /// With TargetOptions::light_paths. Without stored surfaces nothing reads those.
     LitImages litImages() const
     {
-        return {surfaces_.view.get(), sampled_depth_.get(), texel_sampler_.get(), identity_};
+        const Image& surfaces = surfaces_.view.get() != VK_NULL_HANDLE ? surfaces_ : visibility_;
+        return {surfaces.view.get(), sampled_depth_.get(), texel_sampler_.get(), sets_[0].identity};
     }
     VkDeviceSize allocatedBytes() const { return arena_.allocatedBytes(); }
     /// Bytes of attachments that exist on the tile only, where the device has lazily allocated memory;
@@ -137,9 +157,10 @@ private:
         : extent_(extent), options_(options), arena_(device, 0)
     {
     }
-    bool lightsSurfaces() const { return options_.light_path != LightPath::materials; }
     Status createPost(const Device& device, const FramePasses& passes, const DrawLayouts& layouts);
     Status createImages(const Device& device, const FramePasses& passes);
+    std::set<FrameResource> findStored(const FramePasses& passes) const;
+    bool needs(FrameResource resource) const;
     Status createFramebuffers(const Device& device, const FramePasses& passes);
     Status createFramebuffer(const Device& device, const PassFamily& family, uint32_t exposure,
                              UniqueFramebuffer& framebuffer);
@@ -149,19 +170,22 @@ private:
     uint32_t pyramidCount() const { return options_.counts_missing ? 2 : 1; }
     uint32_t nextPyramid() const { return options_.counts_missing ? 1 - pyramid_ : pyramid_; }
     Status createTileLists(const Device& device);
-    Status createSets(const Device& device, const DrawLayouts& layouts, FrameWay way);
+    Status createSets(const Device& device, const DrawLayouts& layouts);
+    Status createAttachmentSets(const Device& device, const DrawLayouts& layouts);
 
     VkExtent2D extent_;
     TargetOptions options_;
     MemoryArena arena_;
     Image visibility_;
     Image depth_;
-    Image surfaces_; ///< of light paths other than materials
+    Image surfaces_; ///< of paths that store them
+    /// Images of paths that add or mark lights ahead of shading, from FrameResource::diffuse_light on.
+    std::array<Image, 5> light_images_;
     bool depth_leaves_tile_ = false;
     UniqueImageView sampled_depth_; ///< without a stencil; empty if no frame reads the depth
     Image color_;
     // texels in place of images that no frame reads: some drivers look at all descriptors of a set
-    Image no_depth_, no_light_;
+    Image no_depth_, no_light_, no_light_image_;
     std::optional<PostTargets> post_; ///< with TargetOptions::has_final_pass
     struct FamilyFramebuffer
     {
@@ -175,8 +199,12 @@ private:
     Buffer tile_lists_;
     UniqueSampler texel_sampler_;
     UniqueDescriptorPool pool_;
-    VkDescriptorSet set_ = VK_NULL_HANDLE;
-    std::shared_ptr<const TargetsIdentity> identity_ = std::make_shared<TargetsIdentity>();
+    struct PathSet
+    {
+        VkDescriptorSet set = VK_NULL_HANDLE;
+        std::shared_ptr<const TargetsIdentity> identity = std::make_shared<TargetsIdentity>();
+    };
+    std::array<PathSet, kLightPathCount> sets_; ///< [LightPath]; that of `materials` stands for empty ones
     /// Views of a frame's occlusion tests, for each frame in flight.
     struct OcclusionViews
     {

@@ -11,12 +11,14 @@ namespace hearth::gpu
 {
 
 Result<MaterialMarksPass> MaterialMarksPass::create(const Device& device, const DrawLayouts& layouts,
-                                                    const FramePasses& passes, ShadedOutput output)
+                                                    const FramePasses& passes, ShadedOutput output,
+                                                    FrameStep step)
 {
     MaterialMarksPass pass;
+    pass.path_ = lightPath(output);
     pass.materials_ = passes.materials();
     const bool by_depth = pass.materials_ == MaterialTest::depth;
-    const DrawPlace place = passes.place(output, FrameStep::shading);
+    const DrawPlace place = passes.place(output, step);
     const shaders::Variant reading = shaderVariant(passes.way());
     HEARTH_ASSIGN_OR_RETURN(
         pass.pipeline_,
@@ -28,9 +30,8 @@ Result<MaterialMarksPass> MaterialMarksPass::create(const Device& device, const 
                                         .subpass = place.subpass,
                                         .depth_compare = VK_COMPARE_OP_ALWAYS,
                                         .depth_write = by_depth,
-                                        .color = true,
+                                        .colors = step == FrameStep::shading ? shadedColors(output) : 1,
                                         .color_write = false,
-                                        .second_color = storesSurfaces(output),
                                         .stencil = by_depth ? Stencil::none : Stencil::mark}));
     return pass;
 }
@@ -38,7 +39,7 @@ Result<MaterialMarksPass> MaterialMarksPass::create(const Device& device, const 
 void MaterialMarksPass::record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                                const Scene& scene, const FrameTargets& targets) const
 {
-    const ShadingBinder binder(device, commands, layouts, scene, targets);
+    const ShadingBinder binder(device, commands, layouts, scene, targets, path_);
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.get());
     binder.bindSurfaces();
     // one draw for the depth; one for each bit that the stencil needs

@@ -1,5 +1,5 @@
 // Marks which material each pixel has, so that a fixed-function test limits the draw of a material to its
-// pixels: in the depth, or in a stencil where the depth has to stay. Begins FrameStep::shading.
+// pixels: in the depth, or in a stencil where the depth has to stay. Begins FrameStep::shading and normals.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -16,15 +16,18 @@ inline constexpr uint32_t kStencilBits = 8;
 class MaterialMarksPass
 {
 public:
+    /// step  that the marks are for
     static Result<MaterialMarksPass> create(const Device& device, const DrawLayouts& layouts,
-                                            const FramePasses& passes, ShadedOutput output);
+                                            const FramePasses& passes, ShadedOutput output, FrameStep step);
 
-    /// Record in FrameStep::shading, with viewport and scissor set. Clobbers the graphics state.
+    /// Record in that step, with viewport and scissor set and the stencil, if there is one, 0. Clobbers the
+    /// graphics state.
     void record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                 const Scene& scene, const FrameTargets& targets) const;
 
 private:
     MaterialTest materials_ = MaterialTest::depth;
+    LightPath path_ = LightPath::materials;
     UniquePipeline pipeline_;
 };
 

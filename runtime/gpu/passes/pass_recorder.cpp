@@ -36,7 +36,7 @@ VkClearValue clearValue(FrameResource resource)
         value.color.uint32[0] = shared::kVisibilitySky;
     else if (resource == FrameResource::depth || resource == FrameResource::shadow_map)
         value.depthStencil = {0, 0}; // at infinity
-    else if (resource != FrameResource::surfaces)
+    else if (resource == FrameResource::color || resource == FrameResource::radiance)
         value.color = {.float32 = {0, 0, 0, 1}};
     return value;
 }
@@ -97,16 +97,7 @@ bool PassRecorder::has(FrameStep step) const
 ShadedOutput PassRecorder::shadedOutput() const
 {
     const FrameConfiguration& c = plan_.description.configuration;
-    switch (c.light_path)
-    {
-    case LightPath::surfaces:
-        return ShadedOutput::surfaces;
-    case LightPath::surfaces_on_tile:
-        return ShadedOutput::surfaces_on_tile;
-    case LightPath::materials:
-        break;
-    }
-    return c.has_final_pass ? ShadedOutput::radiance : ShadedOutput::color;
+    return gpu::shadedOutput(c.light_path, c.has_final_pass);
 }
 
 bool PassRecorder::sharesPass(FrameStep first, FrameStep second) const

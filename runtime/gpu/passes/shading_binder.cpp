@@ -5,11 +5,15 @@ namespace hearth::gpu
 {
 
 ShadingBinder::ShadingBinder(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
-                             const Scene& scene, const FrameTargets& targets)
-    : device_(device), commands_(commands), layouts_(layouts), scene_(scene), targets_(targets)
+                             const Scene& scene, const FrameTargets& targets, LightPath path)
+    : device_(device),
+      commands_(commands),
+      layouts_(layouts),
+      scene_(scene),
+      attachments_(targets.attachments(path))
 {
     if (layouts.joinsSets())
-        scene.joined_sets->setAttachments(device, scene.tables->frame, targets.attachments());
+        scene.joined_sets->setAttachments(device, scene.tables->frame, attachments_);
 }
 
 void ShadingBinder::bind(VkPipelineLayout layout, uint32_t number, VkDescriptorSet set) const
@@ -24,7 +28,7 @@ void ShadingBinder::bindSurfaces() const
     if (layouts_.joinsSets())
         return bindMaterial(0);
     bind(layout(), shared::kSetScene, scene_.frame().main.draw_set);
-    bind(layout(), shared::kSetAttachments, targets_.attachments().set);
+    bind(layout(), shared::kSetAttachments, attachments_.set);
 }
 
 void ShadingBinder::bindMaterial(size_t row) const
@@ -41,7 +45,7 @@ void ShadingBinder::bindClusters() const
     if (layouts_.joinsSets())
         return bind(clusters, kJoinedSet, scene_.joined_sets->clusters(scene_.tables->frame));
     bind(clusters, shared::kSetTables, scene_.frame().cluster_view_set);
-    bind(clusters, shared::kSetClusterAttachments, targets_.attachments().set);
+    bind(clusters, shared::kSetClusterAttachments, attachments_.set);
 }
 
 } // namespace hearth::gpu

@@ -8,13 +8,13 @@
 namespace hearth::gpu
 {
 
-/// Refers to its arguments. When it is made, joined sets get the attachments of the targets
-/// (JoinedSets::setAttachments).
+/// Refers to its arguments. When it is made, joined sets get the attachments of the targets for frames with a
+/// path (JoinedSets::setAttachments).
 class ShadingBinder
 {
 public:
     ShadingBinder(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
-                  const Scene& scene, const FrameTargets& targets);
+                  const Scene& scene, const FrameTargets& targets, LightPath path);
 
     VkPipelineLayout layout() const { return layouts_.shading.get(); }
 
@@ -32,7 +32,7 @@ private:
     VkCommandBuffer commands_;
     const DrawLayouts& layouts_;
     const Scene& scene_;
-    const FrameTargets& targets_;
+    AttachmentSet attachments_;
 };
 
 } // namespace hearth::gpu

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace hearth::gpu
 {
@@ -51,14 +52,28 @@ uint32_t skyOcclusion(const Scene& scene, const ShadingSettings& view)
 } // namespace
 
 /// Return the shader that shades materials.
-std::span<const uint32_t> ShadingPass::materialShader(bool shadowed, bool gi) const
+const shaders::VariedShader& ShadingPass::materialShader(bool shadowed, bool gi) const
 {
-    const shaders::Variant reading = shaderVariant(way_);
-    if (storesSurfaces(output_))
-        return gi ? (shadowed ? shaders::surfaces_shadowed_gi_frag : shaders::surfaces_gi_frag)[reading]
-                  : (shadowed ? shaders::surfaces_shadowed_frag : shaders::surfaces_frag)[reading];
-    return gi ? (shadowed ? shaders::shading_shadowed_gi_frag : shaders::shading_gi_frag)[reading]
-              : (shadowed ? shaders::shading_shadowed_frag : shaders::shading_frag)[reading];
+    using namespace shaders;
+    struct Shaders
+    {
+        const VariedShader *plain, *shadowed, *gi, *shadowed_gi;
+    };
+    static constexpr Shaders kShading{&shading_frag, &shading_shadowed_frag, &shading_gi_frag,
+                                      &shading_shadowed_gi_frag};
+    static constexpr Shaders kSurfaces{&surfaces_frag, &surfaces_shadowed_frag, &surfaces_gi_frag,
+                                       &surfaces_shadowed_gi_frag};
+    static constexpr Shaders kSummed{&summed_frag, &summed_shadowed_frag, &summed_gi_frag,
+                                     &summed_shadowed_gi_frag};
+    static constexpr Shaders kJoint{&joint_frag, &joint_shadowed_frag, &joint_gi_frag,
+                                    &joint_shadowed_gi_frag};
+    static constexpr Shaders kMarked{&marked_frag, &marked_shadowed_frag, &marked_gi_frag,
+                                     &marked_shadowed_gi_frag};
+    static constexpr const Shaders* kByPath[] = {&kShading, &kSurfaces, &kSurfaces,
+                                                 &kSummed,  &kJoint,    &kMarked};
+    static_assert(std::size(kByPath) == kLightPathCount);
+    const Shaders& own = *kByPath[static_cast<size_t>(lightPath(output_))];
+    return gi ? (shadowed ? *own.shadowed_gi : *own.gi) : (shadowed ? *own.shadowed : *own.plain);
 }
 
 /// Describe a pipeline that shades the pixels of one material.
@@ -72,8 +87,7 @@ GraphicsDescription ShadingPass::describe(std::span<const uint32_t> fragment, Vk
             .subpass = place_.subpass,
             .depth_compare = by_depth ? VK_COMPARE_OP_EQUAL : VK_COMPARE_OP_ALWAYS,
             .depth_write = false,
-            .color = true,
-            .second_color = storesSurfaces(output_),
+            .colors = shadedColors(output_),
             .stencil = by_depth ? Stencil::none : Stencil::test};
 }
 
@@ -128,12 +142,14 @@ Result<ShadingPass> ShadingPass::create(const Device& device, const DrawLayouts&
     pass.material_test_ = passes.materials();
     pass.view_constants_[shared::kConstantComparesMaterial] = pass.material_test_ == MaterialTest::id ? 1 : 0;
     pass.view_constants_[shared::kConstantStored] = stored;
-    const bool stores_surfaces = storesSurfaces(output);
+    if (sumsLights(lightPath(output)))
+        pass.normals_place_ = passes.place(output, FrameStep::normals);
+    const bool stores_surfaces = storesSurfaces(lightPath(output));
     GraphicsDescription sky = pass.describe(
         (stores_surfaces ? shaders::surfaces_sky_frag : shaders::sky_frag)[reading], layouts.shading.get());
     sky.constants = pass.view_constants_;
     HEARTH_ASSIGN_OR_RETURN(pass.sky_, createGraphicsPipeline(device, sky));
-    if (stores_surfaces)
+    if (lightPath(output) != LightPath::materials)
         return pass;
     GraphicsDescription clusters =
         pass.describeSurfaceView(shaders::view_clusters_frag[reading], layouts.clusters.get());
@@ -161,7 +177,8 @@ Status ShadingPass::prepareViews(const Device& device, const DrawLayouts& layout
 Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLayouts& layouts,
                                               const ShadingVariant& variant)
 {
-    const bool has_views = !storesSurfaces(output_);
+    const bool has_views = lightPath(output_) == LightPath::materials;
+    const shaders::Variant reading = shaderVariant(way_);
     if (has_views)
         HEARTH_TRY(prepareViews(device, layouts, variant));
     const auto [entry, fresh] = variants_.try_emplace(variant);
@@ -170,23 +187,39 @@ Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLa
     if (fresh)
     {
         const DrawConstants constants = drawConstants(variant, false);
-        GraphicsDescription description = describe(materialShader(shadowed, false), layouts.shading.get());
+        GraphicsDescription description =
+            describe(materialShader(shadowed, false)[reading], layouts.shading.get());
         description.constants = constants;
         HEARTH_ASSIGN_OR_RETURN(pipelines.final_pipeline, createGraphicsPipeline(device, description));
         if (variant.bricks != 0)
         {
-            description.fragment = materialShader(shadowed, true);
+            description.fragment = materialShader(shadowed, true)[reading];
             HEARTH_ASSIGN_OR_RETURN(pipelines.final_gi_pipeline, createGraphicsPipeline(device, description));
         }
-        description.fragment = shaders::view_surface_frag[shaderVariant(way_)];
+        if (sumsLights(lightPath(output_)))
+            HEARTH_TRY(createNormals(device, layouts, constants, pipelines.normals_pipeline));
+        description.fragment = shaders::view_surface_frag[reading];
         if (has_views)
         {
             HEARTH_ASSIGN_OR_RETURN(pipelines.debug_view_pipeline,
                                     createGraphicsPipeline(device, description));
         }
     }
-    return ShadingPipelines{pipelines.final_pipeline.get(), pipelines.final_gi_pipeline.get(),
-                            pipelines.debug_view_pipeline.get()};
+    return ShadingPipelines{pipelines.normals_pipeline.get(), pipelines.final_pipeline.get(),
+                            pipelines.final_gi_pipeline.get(), pipelines.debug_view_pipeline.get()};
+}
+
+/// Create the pipeline that stores what lights need of a material's surfaces, ahead of shading.
+Status ShadingPass::createNormals(const Device& device, const DrawLayouts& layouts,
+                                  const DrawConstants& constants, UniquePipeline& pipeline) const
+{
+    GraphicsDescription description =
+        describe(shaders::normals_frag[shaderVariant(way_)], layouts.shading.get());
+    description.render_pass = normals_place_.render_pass;
+    description.subpass = normals_place_.subpass;
+    description.constants = constants;
+    HEARTH_ASSIGN_OR_RETURN(pipeline, createGraphicsPipeline(device, description));
+    return success();
 }
 
 /// Create the pipelines of the debug views of bricks and GI.
@@ -221,7 +254,10 @@ void ShadingPass::record(const Device& device, VkCommandBuffer commands, const D
     {
     case ViewShader::materials:
     case ViewShader::surface:
-        return recordMaterials(device, commands, layouts, scene, targets, view);
+        return recordMaterials(device, commands, layouts, scene, targets, view,
+                               view.debug_view != shared::kViewFinal ? &ShadingPipelines::debug_view_pipeline
+                               : usesGi(scene, view)                 ? &ShadingPipelines::final_gi_pipeline
+                                                                     : &ShadingPipelines::final_pipeline);
     case ViewShader::clusters:
         return recordClusterView(device, commands, layouts, scene, targets, view);
     case ViewShader::shadow_maps:
@@ -235,11 +271,19 @@ void ShadingPass::record(const Device& device, VkCommandBuffer commands, const D
     }
 }
 
+void ShadingPass::recordNormals(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                                const Scene& scene, const FrameTargets& targets,
+                                const ShadingSettings& view) const
+{
+    ShadingBinder(device, commands, layouts, scene, targets, lightPath(output_)).bindSurfaces();
+    recordMaterials(device, commands, layouts, scene, targets, view, &ShadingPipelines::normals_pipeline);
+}
+
 void ShadingPass::recordSky(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                             const Scene& scene, const FrameTargets& targets,
                             const ShadingSettings& view) const
 {
-    const ShadingBinder binder(device, commands, layouts, scene, targets);
+    const ShadingBinder binder(device, commands, layouts, scene, targets, lightPath(output_));
     binder.bindSurfaces();
     const shared::ShadingPush push = shadingPush(view, 0);
     device.vk.vkCmdPushConstants(commands, binder.layout(), kShadingPushStages, 0, sizeof(push), &push);
@@ -259,7 +303,7 @@ void ShadingPass::recordClusterView(const Device& device, VkCommandBuffer comman
     const VkPipelineLayout layout = layouts.clusters.get();
     const shared::ShadingPush push = shadingPush(view, shared::kEverySurface);
     device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, cluster_views_.get());
-    ShadingBinder(device, commands, layouts, scene, targets).bindClusters();
+    ShadingBinder(device, commands, layouts, scene, targets, lightPath(output_)).bindClusters();
     device.vk.vkCmdPushConstants(commands, layout, kShadingPushStages, 0, sizeof(push), &push);
     device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
 }
@@ -304,12 +348,12 @@ void ShadingPass::recordGiView(const Device& device, VkCommandBuffer commands, c
     device.vk.vkCmdDraw(commands, 3, 1, 0, 0);
 }
 
-/// Uses the sets that recordSky has bound.
+/// Uses the sets of all surfaces, which are bound.
 void ShadingPass::recordMaterials(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                                   const Scene& scene, const FrameTargets& targets,
-                                  const ShadingSettings& view) const
+                                  const ShadingSettings& view, MaterialPipeline pipeline) const
 {
-    const ShadingBinder binder(device, commands, layouts, scene, targets);
+    const ShadingBinder binder(device, commands, layouts, scene, targets, lightPath(output_));
     const VkBuffer draws =
         (shadesTiles(scene, view.area) ? scene.frame().tile_draws : scene.frame().main.material_draws)
             .handle.get();
@@ -319,10 +363,7 @@ void ShadingPass::recordMaterials(const Device& device, VkCommandBuffer commands
         const SceneMaterial& material = scene.materials[row];
         const ShadingPipelines& pipelines =
             material.pipelines[static_cast<size_t>(lightMethod(view))][static_cast<size_t>(output_)];
-        device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                                    view.debug_view != shared::kViewFinal ? pipelines.debug_view_pipeline
-                                    : usesGi(scene, view)                 ? pipelines.final_gi_pipeline
-                                                                          : pipelines.final_pipeline);
+        device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.*pipeline);
         const uint32_t number = row + 1; // 0 is the sky
         const shared::ShadingPush push = shadingPush(view, number, sky_occlusion);
         setStencil(device, commands, number);

@@ -8,6 +8,7 @@
 #include "runtime/gpu/passes/frame_targets.h"
 #include "runtime/gpu/post/post_settings.h"
 #include "runtime/gpu/scene/scene.h"
+#include "runtime/shaders/shaders.h"
 
 #include <map>
 
@@ -97,6 +98,10 @@ public:
     Result<ShadingPipelines> prepare(const Device& device, const DrawLayouts& layouts,
                                      const ShadingVariant& variant);
 
+    /// Record in FrameStep::normals, of outputs with that step: store what lights need of surfaces.
+    void recordNormals(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
+                       const Scene& scene, const FrameTargets& targets, const ShadingSettings& view) const;
+
     /// Record in FrameStep::shading, with viewport and scissor set. Clobbers the graphics state.
     void record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                 const Scene& scene, const FrameTargets& targets, const ShadingSettings& view) const;
@@ -106,6 +111,7 @@ private:
     Status prepareBrickViews(const Device& device, const DrawLayouts& layouts, const ShadingVariant& variant);
     struct Variant
     {
+        UniquePipeline normals_pipeline;
         UniquePipeline final_pipeline;
         UniquePipeline final_gi_pipeline;
         UniquePipeline debug_view_pipeline;
@@ -121,10 +127,15 @@ private:
                          const Scene& scene, const ShadingSettings& view) const;
     void recordGiView(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                       const Scene& scene, const ShadingSettings& view) const;
+    /// Pipeline of a material that a draw of all materials uses.
+    using MaterialPipeline = VkPipeline ShadingPipelines::*;
     void recordMaterials(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
-                         const Scene& scene, const FrameTargets& targets, const ShadingSettings& view) const;
+                         const Scene& scene, const FrameTargets& targets, const ShadingSettings& view,
+                         MaterialPipeline pipeline) const;
+    Status createNormals(const Device& device, const DrawLayouts& layouts, const DrawConstants& constants,
+                         UniquePipeline& pipeline) const;
 
-    std::span<const uint32_t> materialShader(bool shadowed, bool gi) const;
+    const shaders::VariedShader& materialShader(bool shadowed, bool gi) const;
     GraphicsDescription describe(std::span<const uint32_t> fragment, VkPipelineLayout layout) const;
     GraphicsDescription describeSurfaceView(std::span<const uint32_t> fragment,
                                             VkPipelineLayout layout) const;
@@ -132,6 +143,7 @@ private:
     void setStencil(const Device& device, VkCommandBuffer commands, uint32_t material) const;
 
     DrawPlace place_{};
+    DrawPlace normals_place_{}; ///< of outputs that sum lights
     FrameWay way_ = FrameWay::merged;
     ShadedOutput output_ = ShadedOutput::color;
     MaterialTest material_test_ = MaterialTest::depth;

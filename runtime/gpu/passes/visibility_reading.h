@@ -10,11 +10,12 @@
 namespace hearth::gpu
 {
 
-constexpr ShadingDescriptors shadingDescriptors(FrameWay way)
+constexpr ShadingDescriptors shadingDescriptors(FrameWay way, bool has_light_images)
 {
     return {.visibility = hasSubpasses(way) ? VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT
                                             : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-            .one_set = way == FrameWay::one_set};
+            .one_set = way == FrameWay::one_set,
+            .has_light_images = has_light_images};
 }
 
 constexpr shaders::Variant shaderVariant(FrameWay way)

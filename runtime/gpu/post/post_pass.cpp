@@ -32,7 +32,7 @@ Result<PostPass> PostPass::create(const Device& device, const DrawLayouts& layou
                                                                 .subpass = place.subpass,
                                                                 .depth_compare = VK_COMPARE_OP_ALWAYS,
                                                                 .depth_write = false,
-                                                                .color = true,
+                                                                .colors = 1,
                                                                 .constants = constants}));
         return pipeline;
     };

@@ -28,7 +28,7 @@ std::vector<SetBinding> join(std::initializer_list<std::span<const SetBinding>> 
 
 } // namespace
 
-ShadingBindings shadingBindings(VkDescriptorType visibility)
+ShadingBindings shadingBindings(const ShadingDescriptors& descriptors)
 {
     // the skinning pass and the pass that chooses gather points read the scene like vertex shaders
     constexpr VkShaderStageFlags kAll = kVertexStage | kFragmentStage | kComputeStage;
@@ -54,10 +54,13 @@ ShadingBindings shadingBindings(VkDescriptorType visibility)
     for (uint32_t slot = 0; slot < shared::kTextureCount; ++slot)
         bindings.material.push_back(textureBinding(shared::kMaterialTextures + slot, kFragmentStage));
 
-    bindings.visibility = {{shared::kAttachmentVisibility, visibility, kFragmentStage}};
+    bindings.visibility = {{shared::kAttachmentVisibility, descriptors.visibility, kFragmentStage}};
     bindings.attachments = {bindings.visibility.front(),
                             storageBinding(shared::kAttachmentTileLists, kVertexStage),
                             textureBinding(shared::kAttachmentGi, kFragmentStage)};
+    for (uint32_t i = 0; i < shared::kLightImages && descriptors.has_light_images; ++i)
+        bindings.attachments.push_back(
+            {shared::kAttachmentLight + i, VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, kFragmentStage});
     bindings.cluster_views = tableBindings(kClusterViewTables, kFragmentStage);
     return bindings;
 }
@@ -74,15 +77,14 @@ std::vector<SetBinding> litBindings(VkDescriptorType image)
             {shared::kAttachmentDepth, VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, kFragmentStage}};
 }
 
-Status DrawLayouts::createShadingSets(const Device& device, const ShadingDescriptors& descriptors)
+Status DrawLayouts::createShadingSets(const Device& device)
 {
-    const ShadingBindings bindings = shadingBindings(descriptors.visibility);
+    const ShadingBindings bindings = shadingBindings(descriptors);
     HEARTH_ASSIGN_OR_RETURN(scene, createSetLayout(device, bindings.scene));
     HEARTH_ASSIGN_OR_RETURN(material, createSetLayout(device, bindings.material));
     HEARTH_ASSIGN_OR_RETURN(attachments, createSetLayout(device, bindings.attachments));
     HEARTH_ASSIGN_OR_RETURN(cluster_view, createSetLayout(device, bindings.cluster_views));
-    image_type = descriptors.visibility;
-    HEARTH_ASSIGN_OR_RETURN(lit, createSetLayout(device, litBindings(image_type)));
+    HEARTH_ASSIGN_OR_RETURN(lit, createSetLayout(device, litBindings(descriptors.visibility)));
     const SetBinding bin_bindings[] = {storageBinding(shared::kBinsDraws, kVertexStage)};
     HEARTH_ASSIGN_OR_RETURN(bins, createSetLayout(device, bin_bindings));
     if (!descriptors.one_set)
@@ -179,7 +181,8 @@ Status DrawLayouts::createPipelineLayouts(const Device& device)
 Result<DrawLayouts> DrawLayouts::create(const Device& device, const ShadingDescriptors& descriptors)
 {
     DrawLayouts layouts;
-    HEARTH_TRY(layouts.createShadingSets(device, descriptors));
+    layouts.descriptors = descriptors;
+    HEARTH_TRY(layouts.createShadingSets(device));
     HEARTH_TRY(layouts.createFrameSets(device));
     HEARTH_TRY(layouts.createBrickSets(device));
     HEARTH_TRY(layouts.createPipelineLayouts(device));

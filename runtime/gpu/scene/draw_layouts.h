@@ -33,6 +33,8 @@ struct ShadingDescriptors
     VkDescriptorType visibility = VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT;
     /// The sets of a shading pipeline are joined to one: see joined_sets.h.
     bool one_set = false;
+    /// Shading may read shared::kLightImages images that lights have been added to, or marked in.
+    bool has_light_images = false;
 };
 
 /// Number of the set that shading has in place of all others, with ShadingDescriptors::one_set.
@@ -47,7 +49,7 @@ struct ShadingBindings
     std::vector<SetBinding> cluster_views; ///< kClusterViewTables
     std::vector<SetBinding> visibility; ///< shared::kAttachmentVisibility, all that cluster views read beside
 };
-ShadingBindings shadingBindings(VkDescriptorType visibility);
+ShadingBindings shadingBindings(const ShadingDescriptors& descriptors);
 
 /// Return the bindings of pipelines that light stored surfaces: some of the scene, then kLitImages images.
 /// image  type of the stored surfaces; the depth is an input attachment
@@ -79,7 +81,7 @@ struct DrawLayouts
     UniquePipelineLayout clusters;     ///< cluster_view, attachments: debug views of clusters
     UniquePipelineLayout brick_views;  ///< bricks: debug views of bricks
     UniquePipelineLayout lit_surfaces; ///< lit: lights of stored surfaces
-    VkDescriptorType image_type = VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT; ///< of the frame's images
+    ShadingDescriptors descriptors;
 
     static Result<DrawLayouts> create(const Device& device, const ShadingDescriptors& descriptors);
 
@@ -87,7 +89,7 @@ struct DrawLayouts
     bool joinsSets() const { return joined_shading.get() != VK_NULL_HANDLE; }
 
 private:
-    Status createShadingSets(const Device& device, const ShadingDescriptors& descriptors);
+    Status createShadingSets(const Device& device);
     Status createFrameSets(const Device& device);
     Status createBrickSets(const Device& device);
     Status createPipelineLayouts(const Device& device);

@@ -25,8 +25,7 @@ Result<std::unique_ptr<JoinedSets>> JoinedSets::create(const Device& device, con
                                                        const Scene& scene)
 {
     auto joined = std::make_unique<JoinedSets>();
-    // shading reads the visibility buffer as an input attachment wherever its sets are joined
-    joined->bindings_ = shadingBindings(VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT);
+    joined->bindings_ = shadingBindings(layouts.descriptors);
     const ShadingBindings& bindings = joined->bindings_;
     const auto frames = static_cast<uint32_t>(scene.frames.size());
     const uint32_t material_sets = frames * static_cast<uint32_t>(scene.materials.size());
@@ -76,8 +75,9 @@ Result<std::unique_ptr<LitSets>> LitSets::create(const Device& device, const Dra
                                                  const Scene& scene)
 {
     auto sets = std::make_unique<LitSets>();
-    sets->has_subpasses_ = layouts.image_type == VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT;
-    const std::vector<SetBinding> bindings = litBindings(layouts.image_type);
+    const VkDescriptorType image_type = layouts.descriptors.visibility;
+    sets->has_subpasses_ = image_type == VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT;
+    const std::vector<SetBinding> bindings = litBindings(image_type);
     const std::span copied = std::span(bindings).first(bindings.size() - kLitImages);
     const auto frames = static_cast<uint32_t>(scene.frames.size());
     DescriptorPoolSizes sizes;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/vulkan/pipelines.h"
 
+#include <algorithm>
+#include <iterator>
+
 namespace hearth::gpu
 {
 
@@ -186,13 +189,14 @@ Result<UniquePipeline> createGraphicsPipeline(const Device& device, const Graphi
     color.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
     constexpr VkColorComponentFlags kAllComponents = VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
                                                      VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
-    VkPipelineColorBlendAttachmentState blends[2] = {};
+    VkPipelineColorBlendAttachmentState blends[kMaxColors] = {};
     blends[0].blendEnable = description.add ? VK_TRUE : VK_FALSE;
     blends[0].srcColorBlendFactor = blends[0].dstColorBlendFactor = VK_BLEND_FACTOR_ONE;
     blends[0].srcAlphaBlendFactor = blends[0].dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
     blends[0].colorWriteMask = description.color_write ? kAllComponents : 0;
-    blends[1] = blends[0]; // differences are a feature of devices
-    color.attachmentCount = (description.color ? 1 : 0) + (description.second_color ? 1 : 0);
+    std::fill(std::begin(blends) + 1, std::end(blends), blends[0]); // differences are a feature of devices
+    HEARTH_ASSERT(description.colors <= kMaxColors);
+    color.attachmentCount = description.colors;
     color.pAttachments = blends;
     std::vector<VkDynamicState> dynamic_states = {VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
     if (description.stencil == Stencil::mark)

@@ -68,6 +68,9 @@ enum class Stencil : uint8_t
     take, ///< draws where it is not 0, and sets it to 0
 };
 
+/// Colour targets that every device has.
+inline constexpr uint32_t kMaxColors = 4;
+
 struct GraphicsDescription
 {
     std::span<const uint32_t> vertex;
@@ -79,10 +82,9 @@ struct GraphicsDescription
     VkFrontFace front_face = VK_FRONT_FACE_COUNTER_CLOCKWISE;
     VkCompareOp depth_compare;
     bool depth_write;
-    bool color; ///< the subpass has a colour target
+    uint32_t colors; ///< colour targets of the subpass: 0 to kMaxColors
     bool color_write = true;
-    bool second_color = false; ///< it has another one, which is written with the first; not if they blend
-    bool add = false;          ///< blend additively into the colour target
+    bool add = false; ///< blend additively into all of them
     Stencil stencil = Stencil::none;
     std::span<const uint32_t> constants{}; ///< value of specialization constant i, for both stages
 };

@@ -34,11 +34,16 @@ uint reaches(Light light, vec3 position)
     return any(greaterThan(lightIrradiance(light, position, to_light), vec3(0.0))) ? 1u : 0u;
 }
 
-bool isInVolume(Light light, vec3 position)
+// True if a pixel evaluates a ranged light outside of its list: one in whose volume it is, or that its bits
+// name.
+bool isDrawn(uint row, uint number, vec3 position)
 {
+    if (kLightList != kLightListVolumes && (kLightList != kLightListBits || number >= kMarkedLights))
+        return false;
     vec3 place = vec3(dot(lighting.grid.right, position), dot(lighting.grid.down, position),
                       dot(lighting.grid.forward, position));
-    return isInLightVolume(makeCellLight(lighting.grid, light), place);
+    CellLight light = makeCellLight(lighting.grid, lights[row]);
+    return kLightList == kLightListVolumes ? isInLightVolume(light, place) : mayReachPoint(light, place);
 }
 
 // Add to a number of two words.
@@ -61,21 +66,24 @@ void main()
     Surface s = resolveSurface(id, place);
     uint first = lighting.first_list_word;
     LightListing listing = findLights(s.position, place, s.slot_number);
-    uint evaluated = listing.count;
+    uint evaluated = 0u;
     uint reaching = 0u;
     for (uint i = 0u; i < listing.count; ++i)
-        reaching += reaches(lights[listedLight(listing, i)], s.position);
-    if (kLightList == kLightListVolumes)
     {
-        uint ranged = light_words[first + kCountRanged];
-        for (uint i = 0u; i < ranged; ++i)
-        {
-            uint row = light_words[first + kLightCountWords + listing.unranged_count + i];
-            if (!isInVolume(lights[row], s.position))
-                continue;
-            ++evaluated;
-            reaching += reaches(lights[row], s.position);
-        }
+        uint number = listedPlace(listing, i);
+        if (kLightList == kLightListBits && number >= listing.unranged_count && number < listing.unranged_count + kMarkedLights)
+            continue;
+        ++evaluated;
+        reaching += reaches(lights[frameLight(number)], s.position);
+    }
+    uint ranged = light_words[first + kCountRanged];
+    for (uint i = 0u; i < ranged && kLightList >= kLightListVolumes; ++i)
+    {
+        uint row = frameLight(listing.unranged_count + i);
+        if (!isDrawn(row, i, s.position))
+            continue;
+        ++evaluated;
+        reaching += reaches(lights[row], s.position);
     }
     atomicAdd(light_counts[first + kCountPixels], 1u);
     atomicMax(light_counts[first + kCountLongest], evaluated);

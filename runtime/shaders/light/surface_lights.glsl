@@ -4,6 +4,7 @@
 #include "formats/gpu_shared/reflector.h"
 #include "formats/gpu_shared/specialization.h"
 #include "runtime/shaders/scene/directions.glsl"
+#include "runtime/shaders/light/pixel_position.glsl"
 #include "runtime/shaders/scene/light_block.glsl"
 #include "runtime/shaders/shade/brdf.glsl"
 #include "runtime/shaders/shade/light_irradiance.glsl"
@@ -20,12 +21,6 @@ layout(input_attachment_index = kInputSurfaces, set = kSetScene, binding = kAtta
 
 uvec4 loadSurface() { return subpassLoad(stored_surfaces); }
 #endif
-// bound for the stencil, so that nothing else may read it
-layout(input_attachment_index = kInputDepth, set = kSetScene, binding = kAttachmentDepth)
-    uniform subpassInput stored_depth;
-
-float loadDepth() { return subpassLoad(stored_depth).x; }
-
 layout(constant_id = kConstantReflects) const bool kReflects = false;
 
 vec3 reflectedShare(Light light, vec3 from_lamp) { return kReflects ? reflectorShare(light, from_lamp) : vec3(0.0); }
@@ -38,17 +33,6 @@ struct PlacedSurface
     vec3 flat_normal;
     float error;
 };
-
-// Point of the pixel at a depth, relative to the eye: of all with these clip coordinates, the one whose
-// distance along the view is that of the depth.
-vec3 pixelPosition(vec2 pixel, float depth)
-{
-    vec2 ndc = pixel * 2.0 / vec2(view.width, view.height) - 1.0;
-    vec3 x = view.clip_x.xyz, y = view.clip_y.xyz, w = view.clip_w.xyz;
-    vec3 across = cross(x, y);
-    vec3 ray = cross(y, w) * ndc.x + cross(w, x) * ndc.y + across;
-    return ray * (view.z_near / (depth * dot(across, w)));
-}
 
 // words  not kNoSurface
 PlacedSurface placedSurface(uvec4 words)

@@ -35,11 +35,17 @@ LobeTotal lobeTotal(mediump float roughness, mediump float n_dot_v)
     return LobeTotal(texel.r, texel.g, texel.b, texel.a);
 }
 
-mediump vec3 fresnelSchlick(mediump vec3 f0, mediump float f90, mediump float v_dot_h)
+// Share of the reflectance at grazing angles in Schlick's term.
+mediump float schlickShare(mediump float v_dot_h)
 {
     mediump float x = 1.0 - v_dot_h;
     mediump float x2 = x * x;
-    return f0 + (f90 - f0) * (x2 * x2 * x);
+    return x2 * x2 * x;
+}
+
+mediump vec3 fresnelSchlick(mediump vec3 f0, mediump float f90, mediump float v_dot_h)
+{
+    return f0 + (f90 - f0) * schlickShare(v_dot_h);
 }
 
 // GGX lobe without the Fresnel term: distribution times visibility.

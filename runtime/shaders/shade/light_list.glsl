@@ -1,6 +1,7 @@
 // Lights that a pixel evaluates: those that every point gets, then the ranged ones of its list. Needs
 // light_block.glsl and `view`.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/light_bits.h"
 #include "formats/gpu_shared/specialization.h"
 
 layout(constant_id = kConstantLightList) const uint kLightList = kLightListCells;
@@ -21,7 +22,7 @@ uint listWord(vec3 position, vec2 pixel, uint slot)
     uint number = slot;
     if (kLightList == kLightListTiles)
         number = lightCellAt(lighting.tiles, pixel.x, pixel.y, 0.0);
-    if (kLightList == kLightListCells)
+    if (kLightList == kLightListCells || kLightList == kLightListBits)
     {
         float depth = dot(view.clip_w.xyz, position);
         number = lightCellAt(lighting.cascades[lightCascadeAt(depth)], pixel.x, pixel.y, depth);
@@ -36,9 +37,11 @@ LightListing findLights(vec3 position, vec2 pixel, uint slot)
     uint unranged_count = light_words[lighting.first_list_word + kCountUnranged];
     uint ranged = light_words[lighting.first_list_word + kCountRanged];
     LightListing listing = LightListing(unranged_count, unranged_count + ranged, 0u, false);
-    if (kLightList == kLightListVolumes)
+    const bool has_no_list =
+        kLightList == kLightListVolumes || (kLightList == kLightListBits && ranged <= kMarkedLights);
+    if (has_no_list)
         listing.count = unranged_count;
-    if (kLightList == kLightListVolumes || kLightList == kLightListFrame || ranged == 0u)
+    if (has_no_list || kLightList == kLightListFrame || ranged == 0u)
         return listing;
     uint word = listWord(position, pixel, slot);
     uint count = lightCellCount(word);
@@ -51,8 +54,11 @@ LightListing findLights(vec3 position, vec2 pixel, uint slot)
     return listing;
 }
 
-// Row of light `number` of a listing.
-uint listedLight(LightListing listing, uint number)
+// Row of a light of the frame's list.
+uint frameLight(uint place) { return light_words[lighting.first_list_word + kLightCountWords + place]; }
+
+// Place in the frame's list of light `number` of a listing.
+uint listedPlace(LightListing listing, uint number)
 {
     uint place = number;
     if (listing.has_indices && number >= listing.unranged_count)
@@ -61,5 +67,8 @@ uint listedLight(LightListing listing, uint number)
         uint pair = light_words[listing.first_word + (in_list >> 1)];
         place = listing.unranged_count + ((in_list & 1u) == 0u ? pair & 0xFFFFu : pair >> 16);
     }
-    return light_words[lighting.first_list_word + kLightCountWords + place];
+    return place;
 }
+
+// Row of light `number` of a listing.
+uint listedLight(LightListing listing, uint number) { return frameLight(listedPlace(listing, number)); }

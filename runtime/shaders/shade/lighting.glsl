@@ -24,19 +24,51 @@ layout(constant_id = kConstantUnlit) const bool kUnlit = false;
 // texture.
 vec3 surroundingLight(SurfacePoint point, Shading shading, Layers layers, mediump float occlusion);
 
+#ifdef HEARTH_SUMMED_LIGHTS
+// Radiance towards the eye from the lights, but for layers: prepass/summed_lights.glsl.
+vec3 summedLight(Shading s);
+#endif
+
+#ifdef HEARTH_MARKED_LIGHTS
+// Bits of the lights that may reach the pixel: stack/light_bits.glsl.
+uvec2 loadLightBits();
+#endif
+
+// Radiance towards the eye from a light.
+vec3 lightRadiance(uint row, SurfacePoint point, Shading shading, Layers layers)
+{
+    vec3 to_light;
+    vec3 irradiance = lightIrradiance(lights[row], point.position, to_light);
+    float share = lightVisibility(lights[row], point.position, point.flat_normal, point.error);
+    return irradiance * layeredLight(shading, layers, to_light) * share;
+}
+
 // Radiance towards the eye from the lights.
 vec3 directLight(SurfacePoint point, Shading shading, Layers layers)
 {
     vec3 radiance = vec3(0.0);
     LightListing listing = findLights(point.position, gl_FragCoord.xy, point.slot);
-    for (uint i = 0u; i < listing.count; ++i)
+#ifdef HEARTH_MARKED_LIGHTS
+    // in the order of the frame: lights of every point, those of the bits, and those that have no bit
+    for (uint i = 0u; i < listing.unranged_count; ++i)
+        radiance += lightRadiance(frameLight(i), point, shading, layers);
+    uvec2 marked = loadLightBits();
+    for (uint word = 0u; word < 2u; ++word)
+        for (uint bits = marked[word]; bits != 0u; bits &= bits - 1u)
+        {
+            uint place = listing.unranged_count + word * 32u + uint(findLSB(bits));
+            radiance += lightRadiance(frameLight(place), point, shading, layers);
+        }
+    for (uint i = listing.unranged_count; i < listing.count; ++i)
     {
-        uint row = listedLight(listing, i);
-        vec3 to_light;
-        vec3 irradiance = lightIrradiance(lights[row], point.position, to_light);
-        float share = lightVisibility(lights[row], point.position, point.flat_normal, point.error);
-        radiance += irradiance * layeredLight(shading, layers, to_light) * share;
+        uint place = listedPlace(listing, i);
+        if (place >= listing.unranged_count + kMarkedLights)
+            radiance += lightRadiance(frameLight(place), point, shading, layers);
     }
+#else
+    for (uint i = 0u; i < listing.count; ++i)
+        radiance += lightRadiance(listedLight(listing, i), point, shading, layers);
+#endif
     return radiance;
 }
 
@@ -56,10 +88,15 @@ vec3 lit(SurfacePoint point, SurfaceUvs uvs, mediump vec3 base)
     Layers layers = surfaceLayers(point, uvs, shading);
 
     vec3 radiance = vec3(0.0);
+    // layers fit neither into what is stored nor into sums
 #ifdef HEARTH_STORES_SURFACES
-    // layers do not fit into what is stored
     if (kLayers == 0u)
         out_surface = packSurface(LitSurface(normal, point.flat_normal, base, metallic, shading.roughness, point.error));
+    else
+#endif
+#ifdef HEARTH_SUMMED_LIGHTS
+    if (kLayers == 0u)
+        radiance = summedLight(shading);
     else
 #endif
         radiance = directLight(point, shading, layers);

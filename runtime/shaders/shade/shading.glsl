@@ -3,6 +3,8 @@
 //   HEARTH_SHADOWED         lights cast shadows
 //   HEARTH_GI               indirect light from bricks in place of the sky
 //   HEARTH_STORES_SURFACES  a step behind shading adds the lights: the surface is stored for it
+//   HEARTH_SUMMED_LIGHTS    steps ahead of shading have summed the lights; HEARTH_JOINED_SUMS: in one image
+//   HEARTH_MARKED_LIGHTS    a step ahead of shading has marked the lights that may reach a pixel
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/decisions.h"
 #include "formats/gpu_shared/shading.h"

@@ -20,8 +20,10 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
+#include <utility>
 
 namespace hearth::viewer
 {
@@ -206,6 +208,34 @@ public:
             sum.add(pixels);
         }
         return sum;
+    }
+
+    /// Print how far the image is off that was drawn last, if its light method approximates.
+    Status printDifference(const shared::Camera& camera, size_t number)
+    {
+        const gpu::LightMethodFacts& facts = gpu::lightMethodFacts(settings_.light_method);
+        if (!facts.approximates || settings_.view != shared::kViewFinal)
+            return success();
+        const gpu::Device& device = renderer_.device();
+        HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> own, host_.read(device, targets_.color(), 4));
+        const gpu::LightMethod method = std::exchange(settings_.light_method, kExactMethod);
+        const Status drawn = draw(camera, number);
+        settings_.light_method = method;
+        HEARTH_TRY(drawn);
+        times_.pop_back();
+        HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> exact, host_.read(device, targets_.color(), 4));
+        uint64_t sum = 0;
+        int most = 0;
+        for (size_t i = 0; i < own.size(); ++i)
+        {
+            const int difference = std::abs(std::to_integer<int>(own[i]) - std::to_integer<int>(exact[i]));
+            sum += i % 4 != 3 ? static_cast<uint64_t>(difference) : 0;
+            most = std::max(most, difference);
+        }
+        std::printf("--lights %s is off by %.2f of 255 on average, by %d at most (--lights %s is exact)\n",
+                    facts.name, static_cast<double>(sum) / (0.75 * static_cast<double>(own.size())), most,
+                    gpu::lightMethodFacts(kExactMethod).name);
+        return success();
     }
 
     /// Warn about objects that the last frame left out, and count them for the statistics.
@@ -515,6 +545,7 @@ Status drawImages(const RenderOptions& options, const OutputCameras& images, Fra
             HEARTH_TRY(run.checkDropped());
             if (!options.visibility.empty())
                 HEARTH_TRY(run.writeVisibility(file(options.visibility)));
+            HEARTH_TRY(run.printDifference(cameras[i], i));
         }
     return success();
 }
@@ -582,6 +613,8 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
         }));
     scene->staging.reset();
     HEARTH_TRY(renderer->prepareLightMethod(*scene, options.settings.light_method));
+    if (gpu::lightMethodFacts(options.settings.light_method).approximates)
+        HEARTH_TRY(renderer->prepareLightMethod(*scene, kExactMethod));
 
     const uint32_t scale = makeSampleGrid(options.samples).scale;
     const VkExtent2D size = sheet ? VkExtent2D{sheet->layout.cell_width, sheet->layout.cell_height}

@@ -313,7 +313,7 @@ Status Viewer::resize()
                                                       .may_bloom = frame.post.bloom.strength > 0 ||
                                                                    frame.post.automatic_exposure.has_value(),
                                                       .output = extent,
-                                                      .light_path = lightPath(frame)}));
+                                                      .light_paths = lightPaths(frame)}));
     return success();
 }
 

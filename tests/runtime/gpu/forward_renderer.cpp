@@ -192,7 +192,7 @@ gpu::UniquePipeline ForwardRenderer::createPipeline(const gpu::Scene& scene, uin
                                                                 : VK_FRONT_FACE_COUNTER_CLOCKWISE,
                   .depth_compare = VK_COMPARE_OP_GREATER,
                   .depth_write = true,
-                  .color = true,
+                  .colors = 1,
                   .constants = constants}));
 }
 
@@ -265,7 +265,7 @@ std::vector<std::array<float, 4>> ForwardRenderer::uvDerivatives(const gpu::Scen
                                                    .subpass = 0,
                                                    .depth_compare = VK_COMPARE_OP_ALWAYS,
                                                    .depth_write = false,
-                                                   .color = true}));
+                                                   .colors = 1}));
     const Status status = host_.run(
         [&](VkCommandBuffer commands)
         {

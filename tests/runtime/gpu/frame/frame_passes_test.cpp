@@ -51,6 +51,13 @@ std::vector<FrameConfiguration> everyConfiguration()
                     if (materials != MaterialTest::id)
                         continue;
                     finished.radiance_format = VK_FORMAT_R16G16B16A16_SFLOAT;
+                    for (const LightPath path :
+                         {LightPath::light_sums, LightPath::joint_sums, LightPath::light_bits})
+                    {
+                        FrameConfiguration& ahead = all.emplace_back(random() % 2 != 0 ? c : finished);
+                        ahead.radiance_format = VK_FORMAT_R16G16B16A16_SFLOAT;
+                        ahead.light_path = path;
+                    }
                     finished.light_path = LightPath::surfaces;
                     all.push_back(finished);
                     finished.light_path = LightPath::surfaces_on_tile;
@@ -183,10 +190,15 @@ struct AllowedWarning
     std::string pass;
     std::string text; ///< part of it
     const char* reason;
+    bool may_be_error = false;
 };
 
 const std::string kOnTile = "visibility + shading + add lights + final";
 const std::string kSplitOnTile = "shading + add lights + final";
+const std::string kSums = "visibility + normals + add lights + shading";
+const std::string kSplitSums = "normals + add lights + shading";
+const std::string kMarks = "visibility + mark lights + shading";
+const std::string kSplitMarks = "mark lights + shading";
 
 const AllowedWarning kAllowed[] = {
     {LintRule::spill, "visibility", "left the tile",
@@ -229,6 +241,27 @@ const AllowedWarning kAllowed[] = {
     {LintRule::tile_storage, "add lights", "bits", "as above"},
     {LintRule::spill, "shading", "loads the depth", "passes that light surfaces behind it need it"},
     {LintRule::spill, "add lights", "left the tile", "stored surfaces"},
+    {LintRule::tile_storage, kSums, "bits", "surfaces and sums at once: the pre-pass is there to compare",
+     true},
+    {LintRule::tile_storage, kSplitSums, "bits", "as above", true},
+    {LintRule::tile_storage, kSums, "256 bits", "as above, with one image of sums"},
+    {LintRule::tile_storage, kSplitSums, "256 bits", "as above"},
+    {LintRule::tile_storage, "early visibility", "bits", "shares pipelines with the pre-pass", true},
+    {LintRule::tile_storage, "visibility", "bits", "as above", true},
+    {LintRule::tile_storage, kMarks, "160 bits", "bits of lights and linear colours"},
+    {LintRule::tile_storage, kSplitMarks, "160 bits", "as above"},
+    {LintRule::late_depth, kSums, "discards", "pixels of other materials, behind the stencil"},
+    {LintRule::late_depth, kSplitSums, "discards", "as above"},
+    {LintRule::late_depth, kMarks, "discards", "as above"},
+    {LintRule::late_depth, kSplitMarks, "discards", "as above"},
+    {LintRule::late_depth, "normals", "discards", "as above"},
+    {LintRule::spill, kSums, "left the tile", "two phases: the pyramid of the early depth lies between"},
+    {LintRule::spill, kMarks, "left the tile", "as above"},
+    {LintRule::spill, kSplitSums, "left the tile", "compute passes lie behind the visibility buffer"},
+    {LintRule::spill, kSplitMarks, "left the tile", "as above"},
+    {LintRule::spill, "mark lights", "left the tile", "separate passes, which the device needs"},
+    {LintRule::spill, "normals", "left the tile", "as above"},
+    {LintRule::spill, "shading", "light", "as above: sums of light, or bits of lights"},
 };
 
 } // namespace
@@ -614,6 +647,27 @@ TEST(FramePasses, lightsBehindShadingTakeTheBytesOfSurfaces)
     EXPECT_DOUBLE_EQ(stored.high, on_tile.high);
 }
 
+TEST(FramePasses, lightsAheadOfShadingStayOnTheTile)
+{
+    FrameConfiguration c{.occlusion = OcclusionCulling::off, .materials = MaterialTest::id};
+    const Traffic shaded = measureTraffic(describeFrame(c));
+    // unmerged, the depth is stored and loaded, and so are images between two subpasses; the normals are one
+    // more reader of the visibility buffer
+    constexpr double kDepth = 2 * 4, kSurfaces = 2 * 16, kVisibility = 4;
+    constexpr std::pair<LightPath, double> kUnmerged[] = {
+        {LightPath::light_bits, kDepth + 2 * 2 * 4},
+        {LightPath::joint_sums, kDepth + kSurfaces + kVisibility + 2 * 8},
+        {LightPath::light_sums, kDepth + kSurfaces + kVisibility + 2 * 3 * 8}};
+    for (const auto& [path, bytes] : kUnmerged)
+    {
+        c.light_path = path;
+        const FrameDescription frame = describeFrame(c);
+        EXPECT_DOUBLE_EQ(measureTraffic(frame).low, shaded.low);
+        EXPECT_DOUBLE_EQ(measureTraffic(frame).high, shaded.high + bytes);
+        EXPECT_EQ(findPass(frame, FrameStep::visibility), findPass(frame, FrameStep::shading));
+    }
+}
+
 TEST(FramePasses, onlyTheFinalPassStoresTheImage)
 {
     for (const bool has_final_pass : {false, true})
@@ -675,10 +729,11 @@ TEST(FrameLint, findsNothingButWhatIsAllowed)
                                                [&](const AllowedWarning& a)
                                                {
                                                    return a.rule == finding.rule && a.pass == finding.pass &&
+                                                          a.may_be_error == finding.is_error &&
                                                           finding.text.find(a.text) != std::string::npos;
                                                });
-            EXPECT_FALSE(finding.is_error) << finding.pass << ": " << finding.text << nameConfiguration(c);
-            EXPECT_NE(allowed, std::end(kAllowed)) << finding.pass << ": " << finding.text;
+            EXPECT_NE(allowed, std::end(kAllowed))
+                << finding.pass << ": " << finding.text << nameConfiguration(c);
             seen.insert(allowed);
         }
     EXPECT_EQ(seen.size(), std::size(kAllowed)) << "an exception that nobody needs any more";

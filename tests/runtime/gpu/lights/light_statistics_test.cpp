@@ -1,5 +1,6 @@
 // Tests the statistics of lights of each method against counts on the CPU.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/light_bits.h"
 #include "formats/gpu_shared/light_boxes.h"
 #include "formats/gpu_shared/light_volume.h"
 #include "runtime/gpu/statistics/light_statistics_pass.h"
@@ -64,7 +65,7 @@ protected:
         for (uint32_t i = 0; i < kSheets * kSheets; ++i)
             test_.addInstance(sheet, lying(sheetMiddle(i)));
         std::mt19937 random(3);
-        for (uint32_t i = 0; i < 192; ++i)
+        for (uint32_t i = 0; i < 320; ++i)
             test_.addLight(randomLight(random, 4));
         pack_.emplace(test_.build());
         scene_ = upload(*pack_);
@@ -277,13 +278,42 @@ TEST_F(LightStatisticsTest, countThePixelsInVolumes)
                 countLights([&](const shared::CellLight& light) { return isInLightVolume(light, place); });
         }
     const uint32_t reaching = count(gpu::LightMethod::all).reaching_low;
-    for (const gpu::LightMethod method : {gpu::LightMethod::deferred, gpu::LightMethod::tile_deferred})
+    for (const gpu::LightMethod method : {gpu::LightMethod::deferred, gpu::LightMethod::tile_deferred,
+                                          gpu::LightMethod::prepass, gpu::LightMethod::classic_prepass})
     {
         const shared::LightListCounts counts = count(method);
         EXPECT_EQ(counts.reaching_low, reaching);
         EXPECT_NEAR(counts.evaluated_low, enclosed, 1e-3 * enclosed) << "pixels on the edge may differ";
         EXPECT_LT(counts.evaluated_low, 1.5 * reaching);
     }
+}
+
+TEST_F(LightStatisticsTest, countTheBitsOfPixelsAndListsOfCellsBehindThem)
+{
+    ASSERT_GT(in_view_.size(), 80u);
+    ListMemory memory(scene_->lights->lights().size());
+    shared::LightLists().assign(layout_, scene_->lights->lights(), memory.view());
+    const float pixel = 2 * kEyeHeight * std::tan(0.5f * kFromAbove.y_fov_rad) / kHeight;
+    uint32_t marked = 0, listed = 0;
+    for (uint32_t y = 0; y < kHeight; ++y)
+        for (uint32_t x = 0; x < kWidth; ++x)
+        {
+            const float column = static_cast<float>(x) + 0.5f, row = static_cast<float>(y) + 0.5f;
+            const Float3 place{(column - kWidth / 2.0f) * pixel, (row - kHeight / 2.0f) * pixel, kEyeHeight};
+            for (size_t i = 0; i < 64; ++i)
+                marked += shared::mayReachPoint(in_view_[i], place) ? 1 : 0;
+            const uint32_t word = memory.cells[cellAt(layout_, {column, row, kEyeHeight})];
+            for (uint32_t i = 0; i < shared::lightCellCount(word); ++i)
+            {
+                const uint32_t pair = memory.indices[shared::lightCellOffset(word) + i / 2];
+                listed += (i % 2 == 0 ? pair & 0xFFFFu : pair >> 16) >= 64 ? 1 : 0;
+            }
+        }
+    const uint32_t reaching = count(gpu::LightMethod::all).reaching_low;
+    const shared::LightListCounts counts = count(gpu::LightMethod::stack);
+    EXPECT_EQ(counts.reaching_low, reaching);
+    EXPECT_NEAR(counts.evaluated_low, marked + listed, 1e-3 * marked) << "pixels on the edge may differ";
+    EXPECT_LT(counts.evaluated_low, count(gpu::LightMethod::practical).evaluated_low);
 }
 
 } // namespace hearth::test

@@ -33,6 +33,26 @@ const std::map<std::string, double>& relaxedShares()
                                                          {"surfaces_shadowed_frag", 25},
                                                          {"surfaces_gi_frag", 14},
                                                          {"surfaces_shadowed_gi_frag", 13},
+                                                         {"summed_frag", 28},
+                                                         {"summed_shadowed_frag", 26},
+                                                         {"summed_gi_frag", 15},
+                                                         {"summed_shadowed_gi_frag", 13},
+                                                         {"joint_frag", 28},
+                                                         {"joint_shadowed_frag", 26},
+                                                         {"joint_gi_frag", 15},
+                                                         {"joint_shadowed_gi_frag", 13},
+                                                         {"marked_frag", 27},
+                                                         {"marked_shadowed_frag", 21},
+                                                         {"marked_gi_frag", 15},
+                                                         {"marked_shadowed_gi_frag", 11},
+                                                         {"sum_lights_frag", 3},
+                                                         {"sum_lights_shadowed_frag", 1},
+                                                         {"sum_light_volume_frag", 3},
+                                                         {"sum_light_volume_shadowed_frag", 1},
+                                                         {"join_lights_frag", 3},
+                                                         {"join_lights_shadowed_frag", 1},
+                                                         {"join_light_volume_frag", 3},
+                                                         {"join_light_volume_shadowed_frag", 1},
                                                          {"add_lights_frag", 22},
                                                          {"add_lights_shadowed_frag", 11},
                                                          {"add_light_volume_frag", 25},
@@ -62,7 +82,9 @@ bool shades(const std::string& shader)
 /// and the sky read buffers and the pixel's own attachments.
 bool readsTexels(const std::string& name)
 {
-    return name != "surfaces_sky_frag" && name != "add_lights_frag" && name != "add_light_volume_frag";
+    const bool adds_lights =
+        name.starts_with("add_") || name.starts_with("sum_") || name.starts_with("join_");
+    return name != "surfaces_sky_frag" && (!adds_lights || name.find("_shadowed") != std::string::npos);
 }
 
 double relaxedShare(std::span<const uint32_t> words)

@@ -1,7 +1,7 @@
-// Adds lights to the surfaces that shading has stored: by a list for each pixel, or light by light in the
-// pixels within its volume. Volumes are marked in the stencil, wherever the eye is, as those of shadows:
-// C. Everitt, M. Kilgard, "Practical and robust stenciled shadow volumes for hardware-accelerated rendering",
-// 2002.
+// Adds lights to stored surfaces, or to sums of light ahead of shading: by a list for each pixel, or light by
+// light in the pixels within its volume. Volumes are marked in the stencil, wherever the eye is, as those of
+// shadows: C. Everitt, M. Kilgard, "Practical and robust stenciled shadow volumes for hardware-accelerated
+// rendering", 2002.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -17,13 +17,13 @@ namespace hearth::gpu
 class AddLightsPass
 {
 public:
-    /// output  one that stores surfaces
+    /// output  one whose frames have FrameStep::add_lights
     static Result<AddLightsPass> create(const Device& device, const DrawLayouts& layouts,
                                         const FramePasses& passes, ShadedOutput output);
 
-    /// Create what a scene needs whose materials are prepared. Call before frames are recorded. errors:
+    /// Create the pipelines of a scene that has its LitSets. Call before frames are recorded. errors:
     /// device_failed.
-    Status prepare(const Device& device, const DrawLayouts& layouts, LightMethod method, Scene& scene);
+    Status prepare(const Device& device, const DrawLayouts& layouts, LightMethod method, const Scene& scene);
 
     /// Record in FrameStep::add_lights, with viewport and scissor set. Clobbers the graphics state.
     void record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
@@ -43,6 +43,8 @@ private:
     static Variant makeVariant(const Scene& scene, LightMethod method, bool reflects);
     GraphicsDescription describe(std::span<const uint32_t> vertex, std::span<const uint32_t> fragment,
                                  VkPipelineLayout layout) const;
+    struct Shaders;
+    Shaders chooseShaders(bool shadowed) const;
     void recordVolumes(const Device& device, VkCommandBuffer commands, const Scene& scene,
                        VkPipeline light) const;
 
@@ -51,6 +53,7 @@ private:
         UniquePipeline lists;
         UniquePipeline volume; ///< of methods that draw volumes
     };
+    LightPath path_ = LightPath::surfaces;
     DrawPlace place_{};
     FrameWay way_ = FrameWay::merged;
     UniquePipeline zero_;    ///< takes the numbers of materials out of the stencil

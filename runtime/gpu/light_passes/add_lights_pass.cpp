@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/gpu/passes/add_lights_pass.h"
+#include "runtime/gpu/light_passes/add_lights_pass.h"
 
 #include "formats/gpu_shared/light_volume.h"
 #include "runtime/gpu/passes/visibility_reading.h"
@@ -16,6 +16,29 @@ AddLightsPass::Variant AddLightsPass::makeVariant(const Scene& scene, LightMetho
             .light_list = lightMethodFacts(method).light_list};
 }
 
+struct AddLightsPass::Shaders
+{
+    const shaders::VariedShader& lists;
+    const shaders::VariedShader& volume;
+};
+
+AddLightsPass::Shaders AddLightsPass::chooseShaders(bool shadowed) const
+{
+    using namespace shaders;
+    switch (path_)
+    {
+    case LightPath::light_sums:
+        return shadowed ? Shaders{sum_lights_shadowed_frag, sum_light_volume_shadowed_frag}
+                        : Shaders{sum_lights_frag, sum_light_volume_frag};
+    case LightPath::joint_sums:
+        return shadowed ? Shaders{join_lights_shadowed_frag, join_light_volume_shadowed_frag}
+                        : Shaders{join_lights_frag, join_light_volume_frag};
+    default:
+        return shadowed ? Shaders{add_lights_shadowed_frag, add_light_volume_shadowed_frag}
+                        : Shaders{add_lights_frag, add_light_volume_frag};
+    }
+}
+
 GraphicsDescription AddLightsPass::describe(std::span<const uint32_t> vertex,
                                             std::span<const uint32_t> fragment, VkPipelineLayout layout) const
 {
@@ -26,13 +49,14 @@ GraphicsDescription AddLightsPass::describe(std::span<const uint32_t> vertex,
             .subpass = place_.subpass,
             .depth_compare = VK_COMPARE_OP_ALWAYS,
             .depth_write = false,
-            .color = true};
+            .colors = path_ == LightPath::light_sums ? 3u : 1u};
 }
 
 Result<AddLightsPass> AddLightsPass::create(const Device& device, const DrawLayouts& layouts,
                                             const FramePasses& passes, ShadedOutput output)
 {
     AddLightsPass pass;
+    pass.path_ = lightPath(output);
     pass.place_ = passes.place(output, FrameStep::add_lights);
     pass.way_ = passes.way();
     const VkPipelineLayout layout = layouts.lit_surfaces.get();
@@ -49,12 +73,8 @@ Result<AddLightsPass> AddLightsPass::create(const Device& device, const DrawLayo
 }
 
 Status AddLightsPass::prepare(const Device& device, const DrawLayouts& layouts, LightMethod method,
-                              Scene& scene)
+                              const Scene& scene)
 {
-    if (scene.lit_sets == nullptr)
-    {
-        HEARTH_ASSIGN_OR_RETURN(scene.lit_sets, LitSets::create(device, layouts, scene));
-    }
     const shaders::Variant reading = shaderVariant(way_);
     for (const bool reflects : {false, true})
     {
@@ -69,10 +89,9 @@ Status AddLightsPass::prepare(const Device& device, const DrawLayouts& layouts, 
         constants[shared::kConstantFiltersShadows] = variant.filters_shadows ? 1 : 0;
         constants[shared::kConstantReflects] = reflects ? 1 : 0;
         constants[shared::kConstantStored] = shared::kStoredHalf;
-        GraphicsDescription lists = describe(
-            shaders::post_vert,
-            (variant.shadowed ? shaders::add_lights_shadowed_frag : shaders::add_lights_frag)[reading],
-            layouts.lit_surfaces.get());
+        const Shaders fragments = chooseShaders(variant.shadowed);
+        GraphicsDescription lists =
+            describe(shaders::post_vert, fragments.lists[reading], layouts.lit_surfaces.get());
         lists.add = true;
         lists.constants = constants;
         HEARTH_ASSIGN_OR_RETURN(entry->second.lists, createGraphicsPipeline(device, lists));
@@ -80,8 +99,7 @@ Status AddLightsPass::prepare(const Device& device, const DrawLayouts& layouts, 
             continue;
         GraphicsDescription volume = lists;
         volume.vertex = shaders::light_volume_vert;
-        volume.fragment = (variant.shadowed ? shaders::add_light_volume_shadowed_frag
-                                            : shaders::add_light_volume_frag)[reading];
+        volume.fragment = fragments.volume[reading];
         volume.cull = VK_CULL_MODE_FRONT_BIT; // the eye may be in front of the back faces only
         volume.stencil = Stencil::take;
         HEARTH_ASSIGN_OR_RETURN(entry->second.volume, createGraphicsPipeline(device, volume));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/gpu/passes/light_lists_pass.h"
+#include "runtime/gpu/light_passes/light_lists_pass.h"
 
 #include "formats/gpu_shared/push_constants.h"
 #include "runtime/gpu/scene/scene_tables.h"

@@ -1,0 +1,34 @@
+// Stores what lights need of the surfaces of one material, ahead of its shading. Nothing of materials that
+// lights do not reach this way: unlit ones, and those with layers, which are lit where they are shaded.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "formats/gpu_shared/decisions.h"
+#include "formats/gpu_shared/shading.h"
+#include "formats/gpu_shared/specialization.h"
+#include "runtime/shaders/scene/scene.glsl"
+#include "runtime/shaders/scene/material.glsl"
+#include "runtime/shaders/scene/surface_point.glsl"
+#include "runtime/shaders/scene/resolve.glsl"
+#include "runtime/shaders/scene/visibility_input.glsl"
+#include "runtime/shaders/scene/material_test.glsl"
+#include "runtime/shaders/shade/surface_words.glsl"
+
+layout(constant_id = kConstantUnlit) const bool kUnlit = false;
+layout(constant_id = kConstantLayers) const uint kLayers = 0u;
+
+layout(early_fragment_tests) in;
+layout(location = 0) out uvec4 out_surface;
+
+void main()
+{
+    uint id = loadVisibility();
+    if (isForeign(id) || kUnlit || kLayers != 0u)
+        discard;
+    Surface s = resolveSurface(id, gl_FragCoord.xy);
+    SurfacePoint point = surfacePoint(s);
+    SurfaceUvs uvs = surfaceUvs(s);
+    vec4 metallic_roughness = sampleSurface(uvs, kTextureMetallicRoughness, metallic_roughness_texture);
+    out_surface = packSurface(LitSurface(shadingNormal(point, uvs), point.flat_normal, vec3(0.0), 0.0,
+                                         surfaceRoughness(metallic_roughness), point.error));
+}

@@ -1,0 +1,5 @@
+// Adds a light to sums of light: sum_light_volume.glsl.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "runtime/shaders/prepass/sum_light_volume.glsl"

@@ -1,0 +1,6 @@
+// Adds lists of lights to sums of light, with shadows: sum_lights.glsl.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#define HEARTH_SHADOWED
+#include "runtime/shaders/prepass/sum_lights.glsl"

@@ -1,0 +1,7 @@
+// Shades a material by sums of light: shading.glsl.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#define HEARTH_SUMMED_LIGHTS
+#include "runtime/shaders/shade/shading.glsl"
+#include "runtime/shaders/prepass/summed_lights.glsl"
