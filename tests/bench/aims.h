@@ -88,6 +88,8 @@ inline constexpr std::array kAims = {
     Aim{"picture", "FLIP, nothing occludes: demo", Bound::at_most, 0.03},
     Aim{"picture", "FLIP, all on: demo", Bound::at_most, 0.1},
     Aim{"picture", "FLIP, default above all on: demo", Bound::at_most, 0.02},
+    Aim{"picture", "FLIP, lights without shadows: night", Bound::at_most, 0.02},
+    Aim{"picture", "FLIP, lights with shadows: night", Bound::at_most, 0.02},
     Aim{"picture", "error of light on sky-lit walls: outdoor", Bound::at_most, 0.03},
     Aim{"picture", "rms of ambient occlusion: demo", Bound::at_most, 0.02},
     Aim{"visibility", "any hit, share of the fastest bare loop", Bound::at_least, 0.8},

@@ -8,6 +8,7 @@
 #include "runtime/viewer/camera_fit.h"
 #include "tests/bench/aims.h"
 #include "tests/picture/hearth_pictures.h"
+#include "tests/picture/market_night.h"
 #include "tests/picture/page.h"
 #include "tests/picture/programs.h"
 #include "tests/picture/surface_figures.h"
@@ -48,10 +49,13 @@ struct Arguments
     {
         return std::find(references.begin(), references.end(), reference) != references.end();
     }
+    bool includes(std::string_view scene) const
+    {
+        return scenes.empty() || std::find(scenes.begin(), scenes.end(), scene) != scenes.end();
+    }
     bool includes(const Scene& scene) const
     {
-        return (scenes.empty() || std::find(scenes.begin(), scenes.end(), scene.name) != scenes.end()) &&
-               (scene.source == Source::sample || !assets.empty());
+        return includes(scene.name) && (scene.source == Source::sample || !assets.empty());
     }
 };
 
@@ -159,6 +163,27 @@ void leaveOut(const Scene& scene, bench::Judgement& judgement)
         judgement.leaveOut(kOcclusionFigure);
 }
 
+std::string nightFigure(const std::string& name)
+{
+    return "FLIP, " + name + ": " + std::string(kNightScene);
+}
+
+/// Compare the night market beside rays, whatever references there are for other scenes.
+Result<std::vector<NightComparison>> measureNight(const Arguments& arguments, bench::Judgement& judgement)
+{
+    if (!arguments.includes(kNightScene))
+    {
+        for (const char* name : {"lights without shadows", "lights with shadows"})
+            judgement.leaveOut(nightFigure(name));
+        return std::vector<NightComparison>{};
+    }
+    HEARTH_ASSIGN_OR_RETURN(std::vector<NightComparison> nights, compareMarketNight(arguments.work));
+    for (const NightComparison& night : nights)
+        judgement.record(nightFigure(night.name), night.difference.flip);
+    std::printf("%s", describe(nights).c_str());
+    return nights;
+}
+
 /// returns  exit code: 1 if an aim is missed
 Result<int> measure(const Arguments& arguments)
 {
@@ -188,7 +213,8 @@ Result<int> measure(const Arguments& arguments)
         std::fflush(stdout);
         results.push_back(std::move(result));
     }
-    HEARTH_ASSIGN_OR_RETURN(const std::string page, makePage(results, arguments.work));
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<NightComparison> nights, measureNight(arguments, judgement));
+    HEARTH_ASSIGN_OR_RETURN(const std::string page, makePage(results, nights, arguments.work));
     HEARTH_TRY(writeText(arguments.work + "/picture.html", page));
     std::printf("pictures and heat maps: %s/picture.html\n", arguments.work.c_str());
     return judgement.finish();

@@ -64,13 +64,15 @@ private:
 
 } // namespace
 
-Result<std::string> makePage(const std::vector<SceneResult>& results, const std::string& folder)
+Result<std::string> makePage(const std::vector<SceneResult>& results,
+                             const std::vector<NightComparison>& nights, const std::string& folder)
 {
     Page page(folder);
     page.addText("<pre>");
     page.addText(tableHead());
     for (const SceneResult& result : results)
         page.addText(describe(result));
+    page.addText(describe(nights));
     page.addText("</pre>\n");
     for (const SceneResult& result : results)
     {
@@ -84,6 +86,13 @@ Result<std::string> makePage(const std::vector<SceneResult>& results, const std:
         HEARTH_TRY(page.addImage(result.occlusion.traced, "by rays"));
         for (const Comparison& comparison : result.comparisons)
             HEARTH_TRY(page.addComparison(comparison));
+    }
+    for (const NightComparison& night : nights)
+    {
+        page.addText("<h2>" + std::string(kNightScene) + ", " + night.name + "</h2>\n");
+        HEARTH_TRY(page.addImage(night.drawn, "Hearth"));
+        HEARTH_TRY(page.addImage(night.traced, "by rays"));
+        HEARTH_TRY(page.addImage(night.difference.heat, "difference: " + formatFlip(night.difference.flip)));
     }
     return page.take();
 }

@@ -74,11 +74,10 @@ class PathTracer
 {
 public:
     PathTracer(const ShadedScene& scene, const PathTracing& tracing)
-        : scene_(scene),
-          tracing_(tracing),
-          bright_(scene),
-          rays_(tracing.camera, tracing.width, tracing.height)
+        : scene_(scene), tracing_(tracing), rays_(tracing.camera, tracing.width, tracing.height)
     {
+        if (tracing.occlusion == Occlusion::full)
+            bright_.emplace(scene);
     }
 
     Double3 pixel(uint32_t x, uint32_t y) const
@@ -88,8 +87,9 @@ public:
         for (uint32_t i = 0; i < tracing_.samples; ++i)
         {
             const double across = random.next(), down = random.next();
-            const Ray ray = rays_.through(x + across, y + down);
-            sum += tracing_.occlusion == Occlusion::none ? openLight(ray) : pathLight(ray, random);
+            const Ray ray = tracing_.through_centers ? rays_.through(x + 0.5, y + 0.5)
+                                                     : rays_.through(x + across, y + down);
+            sum += tracing_.occlusion == Occlusion::full ? pathLight(ray, random) : openLight(ray);
         }
         return sum / tracing_.samples;
     }
@@ -101,15 +101,17 @@ private:
         return {invertFilmic(shown.x), invertFilmic(shown.y), invertFilmic(shown.z)};
     }
 
+    /// Light without that of other surfaces.
     Double3 openLight(const Ray& ray) const
     {
-        const auto met = scene_.nearest(ray, rays_.pixelAngle());
+        const bool has_sky = tracing_.occlusion == Occlusion::none;
+        const auto met = scene_.nearest(ray, rays_.pixelAngle(), tracing_.filter);
         if (!met)
-            return scene_.lighting().radiance(ray.direction);
+            return has_sky ? scene_.lighting().radiance(ray.direction) : Double3{};
         if (met->unlit)
             return unlitRadiance(*met);
-        return met->coating.emitted + underLights(scene_, *met, -ray.direction, false) +
-               tracedSky(scene_, *met, -ray.direction, {}, 0);
+        const Double3 lit = met->coating.emitted + underLights(scene_, *met, -ray.direction, !has_sky);
+        return has_sky ? lit + tracedSky(scene_, *met, -ray.direction, {}, 0) : lit;
     }
 
     /// Nearest surface that takes part in lighting: bounced light does not see unlit ones.
@@ -143,14 +145,14 @@ private:
     /// both ways together.
     Step takeStep(const ShadedPoint& point, const Scattering& scattering, Random& random) const
     {
-        const double bright_share = bright_.empty() ? 0 : kBrightShare;
+        const double bright_share = bright_->empty() ? 0 : kBrightShare;
         const Double3 start = lifted(point);
         std::optional<BrightTriangles::Pick> pick;
         Step step;
         if (random.next() < bright_share)
         {
             const double choice = random.next(), u = random.next(), v = random.next();
-            pick = bright_.pick(start, choice, u, v);
+            pick = bright_->pick(start, choice, u, v);
             step.direction = pick->direction;
         }
         else
@@ -161,7 +163,7 @@ private:
         step.met = nearestLit({start, step.direction, 0, kFar});
         if (pick && !(step.met && pick->isMetAt(*step.met)))
             return step; // something is in the way
-        const double bright = step.met ? bright_.density(*step.met, step.direction) : 0;
+        const double bright = step.met ? bright_->density(*step.met, step.direction) : 0;
         step.density = bright_share * bright + (1 - bright_share) * scattered;
         return step;
     }
@@ -169,7 +171,7 @@ private:
     Double3 pathLight(const Ray& ray, Random& random) const
     {
         Double3 sum, through{1, 1, 1}, direction = ray.direction;
-        std::optional<ShadedPoint> met = scene_.nearest(ray, rays_.pixelAngle());
+        std::optional<ShadedPoint> met = scene_.nearest(ray, rays_.pixelAngle(), tracing_.filter);
         for (uint32_t bounce = 0;; ++bounce)
         {
             if (!met)
@@ -200,7 +202,7 @@ private:
 
     const ShadedScene& scene_;
     PathTracing tracing_;
-    BrightTriangles bright_;
+    std::optional<BrightTriangles> bright_; ///< of paths
     CameraRays rays_;
 };
 

@@ -13,6 +13,8 @@ enum class Occlusion
 {
     none, ///< surfaces are under the whole sky and all lights, and see no other; occlusion textures count
     full, ///< paths; occlusion textures, which stand for them, do not count
+    /// Emission, and light that comes straight from lights, with their shadows: no sky, no other surfaces.
+    lights,
 };
 
 struct PathTracing
@@ -21,7 +23,10 @@ struct PathTracing
     uint32_t width = 640;
     uint32_t height = 360;
     uint32_t samples = 16; ///< paths of each pixel
+    /// All paths begin at the centre of their pixel, as the samples of a renderer, not anywhere in it.
+    bool through_centers = false;
     uint32_t max_bounces = 12;
+    TextureFilter filter = TextureFilter::anisotropic; ///< of surfaces that the camera sees
     Occlusion occlusion = Occlusion::full;
     uint64_t seed = 1;
     /// Radiance that no path exceeds after its first bounce: rarer and brighter samples would be noise that

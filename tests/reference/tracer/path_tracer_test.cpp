@@ -186,5 +186,47 @@ TEST_F(PathTracerTest, shadowsALampUnlessNothingOccludes)
     EXPECT_NEAR(look(eye, below, {.samples = 1024, .max_bounces = 1}).y, sky, 0.01 * sky);
 }
 
+TEST_F(PathTracerTest, showsLightsAloneWithTheShadowsOfThoseThatCastThem)
+{
+    addSquare(20, {0, 0, 0}, {0, 1, 0});
+    addSquare(1, {0, 0.5f, 0}, {0, 1, 0});
+    test_.addLight(test::light(LightType::point, {0, 2, 0}, {0, -1, 0}, 4));
+    const Float3 eye{1.5f, 0.3f, 0}, below{0, 0, 0}, beside{1, 0, 0};
+    const auto lamp = [&](Float3 target)
+    {
+        const Double3 view = normalize(Double3(eye) - Double3(target));
+        return underLights(scene(), *scene().nearest({Double3(eye), -view, 0, 1e30}, 0), view, false).y;
+    };
+    const PathTracing lights{.samples = 1, .through_centers = true, .occlusion = Occlusion::lights};
+    EXPECT_NEAR(look(eye, beside, lights).y, lamp(beside), 0.01 * lamp(beside));
+    EXPECT_EQ(look(eye, below, lights).y, 0);
+    EXPECT_EQ(look(eye, {3, 1, 0}, lights).y, 0) << "no sky";
+    SceneLighting lighting = scene().lighting();
+    lighting.lights[0].casts_shadows = false;
+    scene_->setLighting(lighting);
+    EXPECT_NEAR(look(eye, below, lights).y, lamp(below), 0.01 * lamp(below));
+}
+
+TEST_F(PathTracerTest, flickersAsThePackSays)
+{
+    addSquare(20, {0, 0, 0}, {0, 1, 0});
+    LightRecord torch = test::light(LightType::point, {0, 2, 0}, {0, -1, 0}, 4);
+    torch.flicker_rate = 1;
+    torch.flicker_amplitude = 0.5f;
+    test_.addLight(torch);
+    const PackView pack = test_.build();
+    const double steady = readLighting(pack).lights[0].intensity.x;
+    double least = steady, most = 0;
+    for (int i = 0; i < 100; ++i)
+    {
+        const double now = readLighting(pack, 0.37 * i).lights[0].intensity.x;
+        least = std::min(least, now);
+        most = std::max(most, now);
+    }
+    EXPECT_GE(least, 0.5 * steady);
+    EXPECT_LE(most, steady);
+    EXPECT_GT(most - least, 0.3 * steady);
+}
+
 } // namespace
 } // namespace hearth::reference

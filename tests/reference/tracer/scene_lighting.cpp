@@ -2,6 +2,7 @@
 #include "tests/reference/tracer/scene_lighting.h"
 
 #include "formats/gpu_shared/shading.h"
+#include "formats/scene/light_flicker.h"
 
 #include <algorithm>
 #include <array>
@@ -123,7 +124,7 @@ Double3 integrateSky(const SceneLighting& lighting, double height, double cos_ha
 Incident SceneLight::at(Double3 point) const
 {
     if (type == LightType::directional)
-        return {-direction, std::numeric_limits<double>::infinity(), intensity};
+        return {-direction, std::numeric_limits<double>::infinity(), intensity, casts_shadows};
     const Double3 offset = position - point;
     const double distance = std::max(length(offset), 1e-4);
     double attenuation = 1 / (distance * distance);
@@ -136,7 +137,7 @@ Incident SceneLight::at(Double3 point) const
             (dot(direction, -to_light) - cos_outer) / std::max(0.001, cos_inner - cos_outer), 0.0, 1.0);
         attenuation *= inside * inside;
     }
-    return {to_light, distance, intensity * attenuation};
+    return {to_light, distance, intensity * attenuation, casts_shadows};
 }
 
 Double3 SceneLighting::radiance(Double3 direction) const
@@ -155,7 +156,7 @@ Double3 SceneLighting::coneRadiance(Double3 axis, double cos_half_angle) const
     return integrateSky(*this, axis.y, cos_half_angle, [](double) { return 1.0; });
 }
 
-SceneLighting readLighting(const PackView& view)
+SceneLighting readLighting(const PackView& view, std::optional<double> flicker_seconds)
 {
     SceneLighting lighting{
         Double3(shared::kSkyZenith), Double3(shared::kSkyHorizon), Double3(shared::kSkyGround), {}, 1};
@@ -171,6 +172,10 @@ SceneLighting readLighting(const PackView& view)
                                    0});
     else
         lighting.exposure = expose(view, lighting.lights);
+    if (flicker_seconds)
+        for (size_t i = 0; i < view.lights().size(); ++i)
+            lighting.lights[i].intensity =
+                lighting.lights[i].intensity * flickerFactor(view.lights()[i], *flicker_seconds);
     return lighting;
 }
 

@@ -5,6 +5,7 @@
 #include "formats/pack/pack_view.h"
 #include "tests/reference/double3.h"
 
+#include <optional>
 #include <vector>
 
 namespace hearth::reference
@@ -16,6 +17,7 @@ struct Incident
     Double3 to_light;   ///< unit
     double distance;    ///< metres; infinite for the sun
     Double3 irradiance; ///< on a surface that faces the light
+    bool casts_shadows = true;
 };
 
 struct SceneLight
@@ -25,6 +27,7 @@ struct SceneLight
     Double3 intensity;           ///< candela or lux, after exposure
     double range;                ///< metres; 0: unlimited
     double cos_inner, cos_outer;
+    bool casts_shadows = true; ///< false: surfaces do not block it, as those of a renderer without a map
 
     Incident at(Double3 point) const;
 };
@@ -43,6 +46,7 @@ struct SceneLighting
     Double3 coneRadiance(Double3 axis, double cos_half_angle) const;
 };
 
-SceneLighting readLighting(const formats::PackView& view);
+/// flicker_seconds  time of the lights' flicker, which exposure does not follow; none: they are steady
+SceneLighting readLighting(const formats::PackView& view, std::optional<double> flicker_seconds = {});
 
 } // namespace hearth::reference

@@ -39,7 +39,8 @@ ShadedScene::ShadedScene(const PackGeometry& geometry, const TextureSet& texture
 {
 }
 
-std::optional<ShadedPoint> ShadedScene::nearest(const Ray& ray, double sample_angle) const
+std::optional<ShadedPoint> ShadedScene::nearest(const Ray& ray, double sample_angle,
+                                                TextureFilter filter) const
 {
     const auto hit = rays_.nearest(ray);
     if (!hit)
@@ -50,7 +51,10 @@ std::optional<ShadedPoint> ShadedScene::nearest(const Ray& ray, double sample_an
                                     ? material.normal_texture
                                     : layers.clearcoat_normal_texture;
     ShadedPoint point{*hit, surfaceAt(placement_, *hit, normals.uv_set), {}, false};
-    point.coating = coatingAt(*hit, point.surface, hit->distance * sample_angle);
+    const double slant = std::abs(dot(point.surface.geometric_normal, ray.direction));
+    const double sample_size =
+        hit->distance * sample_angle / (filter == TextureFilter::isotropic ? std::max(slant, 1e-3) : 1);
+    point.coating = coatingAt(*hit, point.surface, sample_size);
     point.unlit = (material.flags & kMaterialUnlit) != 0;
     return point;
 }
@@ -75,7 +79,7 @@ bool ShadedScene::shadowed(Double3 start, const Incident& light) const
 {
     constexpr double kLampRadius = 0.05;
     constexpr double kFar = 1e30;
-    return light.distance > kLampRadius &&
+    return light.casts_shadows && light.distance > kLampRadius &&
            occluded({start, light.to_light, 0, std::min(light.distance - kLampRadius, kFar)});
 }
 

@@ -10,6 +10,13 @@
 namespace hearth::reference
 {
 
+/// Side of what a sample covers on a slanted surface by which mips are chosen.
+enum class TextureFilter
+{
+    anisotropic, ///< the shorter one; what lies along the longer one is left to more rays
+    isotropic,   ///< the longer one, as devices do without anisotropic filtering
+};
+
 /// Ray hit on a surface, ready for shading.
 struct ShadedPoint
 {
@@ -26,11 +33,14 @@ public:
     ShadedScene(const PackGeometry& geometry, const TextureSet& textures, const formats::ScenePose* pose);
 
     const SceneLighting& lighting() const { return lighting_; }
+    /// Replace the lights, exposure and sky of the pack.
+    void setLighting(SceneLighting lighting) { lighting_ = std::move(lighting); }
     const Placement& placement() const { return placement_; }
     const formats::MaterialRecord& getMaterial(const SurfaceHit& hit) const;
 
     /// sample_angle  side of the ray's footprint at a distance of one metre, for texture filtering
-    std::optional<ShadedPoint> nearest(const Ray& ray, double sample_angle) const;
+    std::optional<ShadedPoint> nearest(const Ray& ray, double sample_angle,
+                                       TextureFilter filter = TextureFilter::anisotropic) const;
 
     /// True if light is blocked along the ray. Both faces block; unlit surfaces (skies and signs) do not.
     bool occluded(const Ray& ray) const { return rays_.occluded(ray); }

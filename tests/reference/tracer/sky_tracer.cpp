@@ -195,7 +195,7 @@ Double3 underLights(const ShadedScene& scene, const ShadedPoint& point, Double3 
     for (const SceneLight& light : scene.lighting().lights)
     {
         const Incident incident = light.at(point.surface.position);
-        if (shadows && scene.shadowed(start, incident))
+        if (incident.irradiance == Double3{} || (shadows && scene.shadowed(start, incident)))
             continue;
         radiance += incident.irradiance * reflected(point.coating, view, incident.to_light);
     }
