@@ -3,6 +3,7 @@
 #include "formats/gpu_shared/shading.h"
 #include "runtime/viewer/window/viewer.h"
 #include "tests/roundtrip/cooked_sample.h"
+#include "tests/support/sandbox.h"
 
 #include <SDL.h>
 #include <gtest/gtest.h>
@@ -140,6 +141,15 @@ TEST_F(WindowTest, drawsItsPanel)
     EXPECT_EQ(play(5), 5u);
     hold(SDL_SCANCODE_TAB, 1);
     EXPECT_FALSE(settings().panel);
+}
+
+/// As the panel does, which is built when a frame has begun.
+TEST_F(WindowTest, drawsFramesWithoutWhatIsNotPreparedYet)
+{
+    const Sandbox folder;
+    settings().frame.light_method = gpu::LightMethod::tiled_forward;
+    EXPECT_TRUE(viewer_->saveScreenshot(folder / "view.png").ok());
+    EXPECT_EQ(play(3), 3u);
 }
 
 TEST_F(WindowTest, followsItsSize)

@@ -227,7 +227,8 @@ void Viewer::handleKey(int32_t key)
     }
 }
 
-/// Apply the settings that are no part of a frame: camera, asset, and the budget, which reloads the scene.
+/// Apply the settings that are no part of a frame: camera, asset, and what reloads the scene. The next frame
+/// is drawn with the others as they are now: its panel sets those of the frame after it.
 Status Viewer::applySettings()
 {
     if (settings_.camera)
@@ -235,6 +236,7 @@ Status Viewer::applySettings()
     settings_.camera.reset();
     lookAtAsset();
     HEARTH_TRY(prepareLightMethod());
+    drawn_ = settings_.frame;
     if (settings_.geometry_budget == scene_->geometryBudget())
         return success();
     // the present scene stays until the new one is ready
@@ -306,7 +308,7 @@ Status Viewer::resize()
     targets_.reset();
     if (extent.width == 0)
         return success();
-    const FrameSettings& frame = settings_.frame;
+    const FrameSettings& frame = drawn_;
     HEARTH_ASSIGN_OR_RETURN(targets_,
                             renderer_->createTargets(frame.render_size.value_or(extent),
                                                      {.gathers_light = scene_->scene().bricks != nullptr,
@@ -364,8 +366,7 @@ void Viewer::recordFrame(VkCommandBuffer commands, uint32_t image, bool panel, c
     gpu::Scene& scene = scene_->scene();
     if (scene.stream != nullptr)
         scene.stream->beginFrame(frames_->serial() + 1, frames_->completedSerial());
-    gpu::FrameInput frame =
-        makeFrame(settings_.frame, camera_.camera(), scene.instance_count, targets_->extent());
+    gpu::FrameInput frame = makeFrame(drawn_, camera_.camera(), scene.instance_count, targets_->extent());
     if (frame.shading.post.automatic_exposure)
         frame.shading.post.automatic_exposure->time_step = static_cast<float>(frame_seconds_);
     frame.shadow_spheres = shadow_spheres_;

@@ -61,6 +61,7 @@ private:
 
     const formats::PackView& pack_;
     ViewSettings settings_;
+    FrameSettings drawn_; ///< applied ones: targets and pipelines are prepared for them
     Panel panel_;
     FlyControls controls_;
     FlyCamera camera_;
