@@ -92,20 +92,19 @@ std::span<const Named<uint32_t>> cullTestNames()
     return kTests;
 }
 
-namespace
-{
-
-/// True if frames of the settings may have levels of bloom.
-bool mayBloom(const FrameSettings& settings)
+bool needsBloomLevels(const FrameSettings& settings)
 {
     return settings.post.bloom.strength > 0 || settings.post.automatic_exposure.has_value();
 }
+
+namespace
+{
 
 gpu::PostSupport postSupport(const FrameSettings& settings)
 {
     if (settings.keeps_radiance)
         return gpu::PostSupport::half;
-    if (mayBloom(settings) || settings.render_size)
+    if (needsBloomLevels(settings) || settings.render_size)
         return gpu::PostSupport::packed;
     return isNeutral(settings.post) ? gpu::PostSupport::none : gpu::PostSupport::in_tile;
 }
@@ -120,7 +119,7 @@ uint32_t lightPaths(const FrameSettings& settings)
         return 0;
     if (facts.approximates)
         return gpu::lightPathBit(path) | gpu::lightPathBit(gpu::lightMethodFacts(kExactMethod).path);
-    const bool leaves_tile = mayBloom(settings) || settings.keeps_radiance || settings.render_size;
+    const bool leaves_tile = needsBloomLevels(settings) || settings.keeps_radiance || settings.render_size;
     return gpu::lightPathBit(
         path == gpu::LightPath::surfaces_on_tile && leaves_tile ? gpu::LightPath::surfaces : path);
 }
@@ -147,7 +146,7 @@ gpu::TargetOptions targetOptions(const FrameSettings& settings, const gpu::Scene
             .may_split = gathers || gpu::shadesTiles(scene, settings.shaded_area) ||
                          needPixels(gpu::lightMethodFacts(settings.light_method).areas),
             .counts_missing = settings.occludes_by_last_frame,
-            .may_bloom = mayBloom(settings),
+            .may_bloom = needsBloomLevels(settings),
             .output = output,
             .keeps_radiance = settings.keeps_radiance,
             .light_paths = lightPaths(settings)};

@@ -55,6 +55,9 @@ std::span<const Named<uint32_t>> specularOcclusionNames();
 /// Return the culling tests, one per flag.
 std::span<const Named<uint32_t>> cullTestNames();
 
+/// True if frames of the settings need levels of bloom, which are images of their own.
+bool needsBloomLevels(const FrameSettings& settings);
+
 /// Method whose image shows how far one is off that approximates.
 inline constexpr gpu::LightMethod kExactMethod = gpu::LightMethod::prepass;
 

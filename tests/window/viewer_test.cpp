@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/shading.h"
 #include "runtime/viewer/window/viewer.h"
+#include "tests/reference/png_image.h"
 #include "tests/roundtrip/cooked_sample.h"
 #include "tests/support/sandbox.h"
 
 #include <SDL.h>
+#include <array>
 #include <gtest/gtest.h>
 
 namespace hearth::test
@@ -86,6 +88,18 @@ protected:
     std::unique_ptr<viewer::Viewer> viewer_;
 };
 
+/// Return the mean of the red, green and blue values of a PNG file, 0 to 255.
+Float3 meanColor(const std::string& file)
+{
+    const reference::Image image = reference::readPng(file).value();
+    std::array<double, 3> sums{};
+    for (size_t i = 0; i < image.rgb.size(); ++i)
+        sums[i % 3] += image.rgb[i];
+    const double pixels = static_cast<double>(image.rgb.size()) / 3;
+    return {static_cast<float>(sums[0] / pixels), static_cast<float>(sums[1] / pixels),
+            static_cast<float>(sums[2] / pixels)};
+}
+
 } // namespace
 
 TEST_F(WindowTest, isFlownByKeysAndMouse)
@@ -143,11 +157,34 @@ TEST_F(WindowTest, drawsItsPanel)
     EXPECT_FALSE(settings().panel);
 }
 
+TEST_F(WindowTest, changesExposureBloomAndPhotoFilterWhileItIsOpen)
+{
+    const Sandbox folder;
+    const auto mean = [&](const gpu::PostSettings& post)
+    {
+        settings().frame.post = post;
+        EXPECT_EQ(play(3), 3u);
+        EXPECT_TRUE(viewer_->saveScreenshot(folder / "view.png").ok());
+        return meanColor(folder / "view.png");
+    };
+    const Float3 before = mean({});
+    EXPECT_GT(mean({.exposure_stops = 1}).y, before.y + 10);
+    EXPECT_LT(mean({.exposure_stops = -1}).y, before.y - 10);
+    const Float3 warm = mean({.photo_filter = {.color = {1, 0.3f, 0}, .density = 0.5f}});
+    EXPECT_GT(warm.x - before.x, 5);
+    EXPECT_LT(warm.z - before.z, -5);
+    EXPECT_GT(mean({.bloom = {.strength = 0.5f, .mode = gpu::BloomMode::add}}).y, before.y + 10);
+    const gpu::AutomaticExposure at_once{.key = 0.02f, .time_constant = 0};
+    EXPECT_LT(mean({.automatic_exposure = at_once}).y, before.y - 10);
+    EXPECT_NEAR(mean({}).y, before.y, 0.1f) << "with targets that have no bloom again";
+}
+
 /// As the panel does, which is built when a frame has begun.
 TEST_F(WindowTest, drawsFramesWithoutWhatIsNotPreparedYet)
 {
     const Sandbox folder;
     settings().frame.light_method = gpu::LightMethod::tiled_forward;
+    settings().frame.post.bloom.strength = 0.5f;
     EXPECT_TRUE(viewer_->saveScreenshot(folder / "view.png").ok());
     EXPECT_EQ(play(3), 3u);
 }

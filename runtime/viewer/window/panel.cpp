@@ -136,6 +136,31 @@ void buildAnimation(PlaybackSettings& settings, const PanelData& facts)
                        ImGuiSliderFlags_AlwaysClamp);
 }
 
+/// Show the settings of what follows the lighting; zero everywhere is none.
+void buildPost(gpu::PostSettings& post)
+{
+    if (!ImGui::CollapsingHeader("Exposure, bloom, photo filter"))
+        return;
+    constexpr float kMaxStops = 8; // a factor of 256: the command line takes more
+    ImGui::SliderFloat("Exposure", &post.exposure_stops, -kMaxStops, kMaxStops, "%.2f stops",
+                       ImGuiSliderFlags_AlwaysClamp);
+    bool is_automatic = post.automatic_exposure.has_value();
+    if (ImGui::Checkbox("Follow the light of the image", &is_automatic))
+        post.automatic_exposure =
+            is_automatic ? std::optional(gpu::AutomaticExposure{}) : std::optional<gpu::AutomaticExposure>();
+    ImGui::SliderFloat("Bloom", &post.bloom.strength, 0, 1, "%.3f",
+                       ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
+    bool adds = post.bloom.mode == gpu::BloomMode::add;
+    if (ImGui::Checkbox("Add bloom, take nothing away", &adds))
+        post.bloom.mode = adds ? gpu::BloomMode::add : gpu::BloomMode::mix;
+    // linear, as all colours of the window
+    Float3& glass = post.photo_filter.color;
+    float color[] = {glass.x, glass.y, glass.z};
+    if (ImGui::ColorEdit3("Photo filter", color, ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_Float))
+        glass = {color[0], color[1], color[2]};
+    ImGui::SliderFloat("Density", &post.photo_filter.density, 0, 1, "%.2f", ImGuiSliderFlags_AlwaysClamp);
+}
+
 } // namespace
 
 Panel::Panel(const ViewSettings& settings, uint64_t geometry_bytes)
@@ -163,6 +188,7 @@ void Panel::build(ViewSettings& settings, const PanelData& facts)
         chooseCamera(settings, facts);
         chooseAsset(settings, facts.assets);
         buildImage(settings.frame, facts);
+        buildPost(settings.frame.post);
         buildAnimation(settings.playback, facts);
         buildCurve(settings.frame);
         buildStreaming(settings, facts);

@@ -235,27 +235,53 @@ Status Viewer::applySettings()
         camera_ = FlyCamera(cameras_[*settings_.camera].camera, camera_.speed());
     settings_.camera.reset();
     lookAtAsset();
+    HEARTH_TRY(supportPost());
     HEARTH_TRY(prepareLightMethod());
     drawn_ = settings_.frame;
+    resized_ = resized_ || (targets_ && targets_->options().may_bloom != needsBloomLevels(drawn_));
     if (settings_.geometry_budget == scene_->geometryBudget())
         return success();
     // the present scene stays until the new one is ready
     Result<std::unique_ptr<LoadedScene>> scene =
-        LoadedScene::load(*host_, *renderer_, pack_, settings_.geometry_budget, shadows_);
+        LoadedScene::load(*host_, renderer(), pack_, settings_.geometry_budget, shadows_);
     problem_ = scene.ok() ? "" : formatMessage(scene.error());
     if (!scene.ok())
     {
         settings_.geometry_budget = scene_->geometryBudget();
         return success();
     }
+    return show(std::move(scene).value());
+}
+
+/// Replace the scene.
+Status Viewer::show(std::unique_ptr<LoadedScene> scene)
+{
     HEARTH_TRY(frames_->waitForAll());
-    scene_ = std::move(scene).value();
+    scene_ = std::move(scene);
     light_method_ = gpu::LightMethod::practical;
     HEARTH_TRY(prepareLightMethod());
     lights_ = FrameLights();
     if (assets_.stage)
         assets_.stage->reset();
     return success();
+}
+
+/// Load the scene with a renderer for all of PostSettings, once they need more than the present one has. Not
+/// from the start: it has twice as many pipelines, and rounds some pixels otherwise than hearth-render.
+Status Viewer::supportPost()
+{
+    gpu::RendererOptions options = rendererOptions(settings_.frame);
+    if (options.post <= renderer().postSupport())
+        return success();
+    options.post = gpu::PostSupport::packed;
+    HEARTH_ASSIGN_OR_RETURN(std::unique_ptr<gpu::Renderer> renderer,
+                            gpu::Renderer::create(host_->description(), options));
+    HEARTH_TRY(renderer->prepareOverdraw());
+    HEARTH_ASSIGN_OR_RETURN(std::unique_ptr<LoadedScene> scene,
+                            LoadedScene::load(*host_, *renderer, pack_, scene_->geometryBudget(), shadows_));
+    post_renderer_ = std::move(renderer);
+    resized_ = true;
+    return show(std::move(scene));
 }
 
 /// Prepare the chosen light method, and targets for it.
@@ -266,7 +292,7 @@ Status Viewer::prepareLightMethod()
     HEARTH_TRY(frames_->waitForAll());
     light_method_ = settings_.frame.light_method;
     resized_ = true;
-    return renderer_->prepareLightMethod(scene_->scene(), light_method_);
+    return renderer().prepareLightMethod(scene_->scene(), light_method_);
 }
 
 /// Go to the chosen asset, or to the whole scene, and set a fly speed that suits its size.
@@ -310,10 +336,9 @@ Status Viewer::resize()
         return success();
     const FrameSettings& frame = drawn_;
     HEARTH_ASSIGN_OR_RETURN(targets_,
-                            renderer_->createTargets(frame.render_size.value_or(extent),
+                            renderer().createTargets(frame.render_size.value_or(extent),
                                                      {.gathers_light = scene_->scene().bricks != nullptr,
-                                                      .may_bloom = frame.post.bloom.strength > 0 ||
-                                                                   frame.post.automatic_exposure.has_value(),
+                                                      .may_bloom = needsBloomLevels(frame),
                                                       .output = extent,
                                                       .light_paths = lightPaths(frame)}));
     return success();
@@ -323,7 +348,7 @@ void Viewer::buildPanel()
 {
     imgui_->beginFrame();
     panel_.build(settings_, {.device = host_->deviceName(),
-                             .renderer = *renderer_,
+                             .renderer = renderer(),
                              .extent = swapchain_->extent(),
                              .frame_seconds = frame_seconds_,
                              .figures = meter_->figures(),
@@ -374,7 +399,7 @@ void Viewer::recordFrame(VkCommandBuffer commands, uint32_t image, bool panel, c
     frame.poses = poses_;
     frame.lights = lights_.changes();
     frame.timestamps = meter_->timestamps(frames_->slot());
-    renderer_->record(commands, scene, *targets_, frame);
+    renderer().record(commands, scene, *targets_, frame);
     meter_->record(commands, *scene_, frames_->slot(), settings_.count_culling);
 
     const gpu::Device& device = renderer_->device();
