@@ -6,6 +6,7 @@
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/shapes.h"
+#include "tests/support/surfaces/lattice_texture.h"
 
 #include <cstdio>
 #include <cstdlib>
@@ -21,21 +22,6 @@ using formats::LightType;
 
 /// Mean difference for a viewer who flips between both pictures, as the bench's aim for the market.
 constexpr double kMaxFlip = 0.02;
-
-/// Make the texels of a sheet with round holes, whose rims are smooth in its alpha.
-std::vector<uint32_t> makeLattice(uint32_t width, uint32_t height)
-{
-    std::vector<uint32_t> texels;
-    for (uint32_t y = 0; y < height; ++y)
-        for (uint32_t x = 0; x < width; ++x)
-        {
-            const auto center = [](uint32_t i) { return static_cast<float>(i % 16) - 7.5f; };
-            const float from_rim = std::sqrt(center(x) * center(x) + center(y) * center(y)) - 5.5f;
-            const auto alpha = static_cast<uint32_t>(255 * std::clamp(0.5f + 0.5f * from_rim, 0.0f, 1.0f));
-            texels.push_back(alpha << 24 | 0x60A0C0u);
-        }
-    return texels;
-}
 
 class NightTest : public GpuTest
 {
@@ -73,8 +59,8 @@ protected:
         lattice.alpha_mode = shared::kAlphaMask;
         lattice.alpha_cutoff = 0.5f;
         lattice.flags |= formats::kMaterialDoubleSided;
-        lattice.base_color_texture =
-            makeTextureRef(test_.addImage(formats::TexelFormat::rgba8_srgb, 64, 32, makeLattice(64, 32)));
+        lattice.base_color_texture = makeTextureRef(
+            test_.addImage(formats::TexelFormat::rgba8_srgb, 64, 32, makeLatticeTexels(64, 32)));
         test_.addInstance(test_.addMesh(withMaterial(makeQuad(4, 2), test_.addMaterial(lattice))),
                           translated({-1, 1, 1.5f}));
     }
