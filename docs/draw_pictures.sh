@@ -82,6 +82,11 @@ draw_view() {
   [[ -f $work/demo.hearth ]] || cooked demo scene --bricks --voxel-size 0.25 --brick-memory 10M
   xvfb-run -a -s '-screen 0 900x560x24' bash -c '
     "$0" "$1" --scene-camera 0 --size 900x560 & viewer=$!
+    # the screen has one colour until the first frame; 40 seconds later the light of bricks has settled
+    until [[ $(import -window root png:- | identify -format %k -) -gt 1000 ]]; do
+      kill -0 $viewer || exit 1
+      sleep 2
+    done
     sleep 40
     import -window root -strip docs/view.png
     kill $viewer' "$bin/hearth-view" "$work/demo.hearth"

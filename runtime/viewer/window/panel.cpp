@@ -11,7 +11,8 @@ namespace
 {
 
 constexpr uint64_t kMib = uint64_t{1} << 20;
-constexpr float kMaxError = 64; // pixels: coarser than anybody wants to see
+constexpr float kMaxError = 64;    // pixels: coarser than anybody wants to see
+constexpr float kLabelWidth = 135; // pixels: the longest is "Specular occlusion"
 
 double mib(uint64_t bytes)
 {
@@ -180,6 +181,7 @@ void Panel::build(ViewSettings& settings, const PanelData& facts)
     ImGui::SetNextWindowSize({380, 560}, ImGuiCond_FirstUseEver);
     if (ImGui::Begin("Hearth"))
     {
+        ImGui::PushItemWidth(-kLabelWidth);
         ImGui::Text("%s, %u x %u", facts.device.c_str(), facts.extent.width, facts.extent.height);
         ImGui::Text("%.2f ms a frame, %.3g m/s", facts.frame_seconds * 1e3,
                     static_cast<double>(facts.camera.speed()));
@@ -194,6 +196,7 @@ void Panel::build(ViewSettings& settings, const PanelData& facts)
         buildStreaming(settings, facts);
         buildCulling(settings, facts);
         showTimes(facts.figures);
+        ImGui::PopItemWidth();
     }
     ImGui::End();
 }
