@@ -1,23 +1,26 @@
-// Measures the lists of many lights: lights that a pixel evaluates beside those that reach it, milliseconds
-// of assignment, and the cells of spots. Lists and cells are beside those of other engines, whose times are
-// not taken: these are written to be right, not fast. The scene is that of N. Billeter
-// et al.: a plane with thousands of balls. `./dev bench many-lights` runs it.
+// Measures the lists of many lights on the CPU, lights that a pixel evaluates beside those that reach it,
+// milliseconds of assignment, and the cells of spots; then all light methods as the device draws them. Lists
+// and cells are beside those of other engines, whose times are not taken: these are written to be right, not
+// fast. `./dev bench many-lights` runs it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/command_line/command_line.h"
 #include "formats/base/program.h"
 #include "runtime/frame/light_lists.h"
-#include "runtime/gpu/frame/frame_lint.h"
-#include "runtime/gpu/frame/frame_plan.h"
-#include "runtime/gpu/lights/light_method.h"
+#include "runtime/pack/pack.h"
+#include "runtime/viewer/camera_fit.h"
 #include "tests/bench/aims.h"
 #include "tests/bench/lights/light_peers.h"
+#include "tests/bench/lights/method_figures.h"
+#include "tests/bench/lights/plane_scene.h"
+#include "tests/support/lit_scene.h"
+#include "tests/support/shapes.h"
+#include "tests/support/test_scene.h"
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <numbers>
-#include <random>
 
 namespace
 {
@@ -27,71 +30,33 @@ using namespace hearth;
 constexpr uint32_t kWidth = 1280, kHeight = 720;
 /// Every so many pixels each way are looked at.
 constexpr uint32_t kStride = 8;
-constexpr float kHalfWidth = 110, kDepth = 240; ///< of the plane, metres
-constexpr int kBalls = 3000;
 constexpr int kViews = 16;
 constexpr int kRepeats = 15;
 
-struct LightSet
+/// A light set and the names of its figures.
+struct MeasuredSet
 {
-    const char* figure; ///< of the ratio
+    const char* ratio;
     const char* time;
-    uint32_t count;
-    float least_range, most_range;
+    bench::LightSet lights;
 };
-constexpr LightSet kLightSets[] = {
-    {"evaluated / reaching, 192 lights", "CPU assignment of 192 lights, ms", 192, 3, 12},
-    {"evaluated / reaching, 1024 lights", "CPU assignment of 1024 lights, ms", 1024, 2, 8},
-    {"evaluated / reaching, 4096 lights", "CPU assignment of 4096 lights, ms", 4096, 1, 5},
+constexpr MeasuredSet kLightSets[] = {
+    {"evaluated / reaching, 192 lights", "CPU assignment of 192 lights, ms", {192, 3, 12}},
+    {"evaluated / reaching, 1024 lights", "CPU assignment of 1024 lights, ms", {1024, 2, 8}},
+    {"evaluated / reaching, 4096 lights", "CPU assignment of 4096 lights, ms", {4096, 1, 5}},
 };
 
-class Random
+/// A light set that the device draws, and the name of its figure.
+struct DrawnSet
 {
-public:
-    float uniform(float low, float high)
-    {
-        return low + (high - low) * (static_cast<float>(random_() >> 8) / 16777216.0f);
-    }
-    Float3 direction()
-    {
-        const float z = uniform(-1, 1);
-        const float angle = uniform(0, 2 * std::numbers::pi_v<float>);
-        const float r = std::sqrt(1 - z * z);
-        return {r * std::cos(angle), r * std::sin(angle), z};
-    }
-    Float3 place(float height)
-    {
-        return {uniform(-kHalfWidth, kHalfWidth), uniform(0, height), -uniform(0, kDepth)};
-    }
-
-private:
-    std::mt19937 random_{11};
+    const char* ratio;
+    bench::LightSet lights;
 };
-
-struct Ball
-{
-    Float3 center;
-    float radius;
+constexpr DrawnSet kDrawnSets[] = {
+    {"evaluated / reaching as drawn, 192 lights", {192, 3, 12}},
+    {"evaluated / reaching as drawn, 1024 lights", {1024, 2, 8}},
 };
-
-/// View of somebody on the plane who looks along it.
-/// heading  radians
-shared::LightGridView makeView(Float3 place, float heading)
-{
-    const float pixels = 0.5f * kHeight / std::tan(0.4f);
-    const float sine = std::sin(heading), cosine = std::cos(heading);
-    return {.eye = {place.x, 1.7f, place.z},
-            .right = {cosine, 0, sine},
-            .down = {0, -1, 0},
-            .forward = {sine, 0, -cosine},
-            .pixels_per_u = pixels,
-            .pixels_per_v = pixels,
-            .center_x = 0.5f * kWidth,
-            .center_y = 0.5f * kHeight,
-            .width = kWidth,
-            .height = kHeight,
-            .z_near = 0.1f};
-}
+constexpr int kDrawnViews = 4; ///< of kViews
 
 /// Visible point of a pixel.
 struct Point
@@ -101,7 +66,7 @@ struct Point
 };
 
 /// Distance along a unit ray to a ball, or infinity.
-float meetBall(Float3 eye, Float3 ray, const Ball& ball)
+float meetBall(Float3 eye, Float3 ray, const bench::Ball& ball)
 {
     const Float3 offset = ball.center - eye;
     const float along = dot(offset, ray);
@@ -110,7 +75,7 @@ float meetBall(Float3 eye, Float3 ray, const Ball& ball)
     return half2 < 0 || nearest <= 0 ? std::numeric_limits<float>::infinity() : nearest;
 }
 
-std::vector<Point> findPoints(const shared::LightGridView& view, const std::vector<Ball>& balls)
+std::vector<Point> findPoints(const shared::LightGridView& view, const std::vector<bench::Ball>& balls)
 {
     std::vector<Point> points;
     for (uint32_t y = kStride / 2; y < kHeight; y += kStride)
@@ -122,25 +87,16 @@ std::vector<Point> findPoints(const shared::LightGridView& view, const std::vect
                                 view.down * ((py - view.center_y) / view.pixels_per_v) + view.forward,
                             {});
             float t = ray.y < 0 ? -view.eye.y / ray.y : std::numeric_limits<float>::infinity();
-            if (std::abs(view.eye.x + ray.x * t) > kHalfWidth || view.eye.z + ray.z * t < -kDepth)
+            if (std::abs(view.eye.x + ray.x * t) > bench::kHalfWidth ||
+                view.eye.z + ray.z * t < -bench::kDepth)
                 t = std::numeric_limits<float>::infinity();
-            for (const Ball& ball : balls)
+            for (const bench::Ball& ball : balls)
                 t = std::min(t, meetBall(view.eye, ray, ball));
             if (std::isinf(t))
                 continue;
             points.push_back({view.eye + ray * t, {px, py, t * dot(ray, view.forward)}});
         }
     return points;
-}
-
-shared::Light makeLamp(Random& random, const LightSet& set)
-{
-    shared::Light light{};
-    light.type = shared::kLightPoint;
-    light.position = random.place(4);
-    light.range = random.uniform(set.least_range, set.most_range);
-    light.intensity = {1, 1, 1};
-    return light;
 }
 
 bool reaches(const shared::Light& light, Float3 point)
@@ -226,26 +182,23 @@ void measureBalls(const std::vector<SeenView>& views, bench::Judgement& judgemen
 {
     std::printf(
         "Lamps over a plane with %d balls, %zu views of %u x %u; lights a pixel, the rest for a view\n",
-        kBalls, views.size(), kWidth, kHeight);
+        bench::kBalls, views.size(), kWidth, kHeight);
     std::printf("  lights  in view  cells  indices  reaching  evaluated  ratio     ms   Filament's loop  "
                 "ratio\n");
-    for (const LightSet& set : kLightSets)
+    for (const MeasuredSet& set : kLightSets)
     {
-        Random random;
-        std::vector<shared::Light> lights;
-        for (uint32_t i = 0; i < set.count; ++i)
-            lights.push_back(makeLamp(random, set));
+        const std::vector<shared::Light> lights = bench::makeLamps(set.lights);
         Lists lists(lights.size());
         Sums sums;
         for (const SeenView& seen : views)
             addView(seen, lights, lists, sums);
         const double count = static_cast<double>(views.size());
-        std::printf("  %6u %8.0f %6.0f %8.0f %9.2f %10.2f %6.2f %6.2f %17.2f %6.2f\n", set.count,
+        std::printf("  %6u %8.0f %6.0f %8.0f %9.2f %10.2f %6.2f %6.2f %17.2f %6.2f\n", set.lights.count,
                     sums.in_view / count, sums.cells / count, sums.indices / count,
                     sums.reaching / sums.pixels, sums.evaluated / sums.pixels, sums.evaluated / sums.reaching,
                     sums.milliseconds / count, sums.peer_evaluated / sums.pixels,
                     sums.peer_evaluated / sums.peer_reaching);
-        judgement.record(set.figure, sums.evaluated / sums.reaching);
+        judgement.record(set.ratio, sums.evaluated / sums.reaching);
         judgement.record(set.time, sums.milliseconds / count);
     }
 }
@@ -371,17 +324,17 @@ void measureSpots(const shared::LightGridView& view, bench::Judgement& judgement
         float low, high; ///< half-angles, degrees
     };
     constexpr Angles kAngles[] = {{5, 15}, {15, 30}, {30, 60}, {60, 90}};
-    constexpr LightSet kSpots{"", "", 150, 2, 12};
+    constexpr bench::LightSet kSpots{150, 2, 12};
     const shared::LightGridLayout layout = shared::makeLightGrid(view);
     std::printf("\nCells of %u spots\n", kSpots.count);
     std::printf("  half-angle   of ball   of least ball   ball against cone / real   seven planes / real\n");
     for (const Angles& angles : kAngles)
     {
-        Random random;
+        bench::Random random;
         SpotCells sum;
         for (uint32_t i = 0; i < kSpots.count; ++i)
         {
-            shared::Light light = makeLamp(random, kSpots);
+            shared::Light light = bench::makeLamp(random, kSpots);
             const float half_angle =
                 random.uniform(angles.low, angles.high) * std::numbers::pi_v<float> / 180;
             light.type = shared::kLightSpot;
@@ -397,46 +350,108 @@ void measureSpots(const shared::LightGridView& view, bench::Judgement& judgement
     }
 }
 
-/// Print the bytes that a frame moves a pixel, with all subpasses merged and with none.
-void printTraffic()
+/// Make the plane of squares of 5 m, so that its clusters are no larger, with its balls and lamps.
+formats::PackView buildPlane(test::TestScene& scene, const std::vector<bench::Ball>& balls,
+                             std::span<const shared::Light> lamps)
 {
-    std::printf("\nBytes a pixel by light method, all subpasses merged and none\n");
-    for (const gpu::LightMethodFacts& method : gpu::kLightMethods)
+    constexpr float kSquare = 5;
+    const uint32_t stone = scene.addMaterial(test::plainMaterial());
+    const uint32_t square = scene.addMesh(test::withMaterial(test::makeQuad(kSquare, kSquare), stone));
+    for (float x = -bench::kHalfWidth + kSquare / 2; x < bench::kHalfWidth; x += kSquare)
+        for (float z = -kSquare / 2; z > -bench::kDepth; z -= kSquare)
+            scene.addInstance(square, test::lying({x, 0, z}));
+    const uint32_t ball = scene.addMesh(test::withMaterial(shapes::rock(8, 0), stone));
+    for (const bench::Ball& placed : balls)
+        scene.addInstance(ball, test::scaled(placed.radius, placed.center));
+    for (const shared::Light& lamp : lamps)
     {
-        const gpu::FrameDescription frame =
-            gpu::describeFrame({.occlusion = gpu::OcclusionCulling::last_frame,
-                                .materials = gpu::MaterialTest::id,
-                                .lists_lights = true,
-                                .lists_slots = method.areas == gpu::LightAreas::slots,
-                                .lists_visible = needPixels(method.areas)});
-        const gpu::Traffic traffic = gpu::measureTraffic(frame);
-        std::printf("  %-18s %6.1f %6.1f\n", method.name, traffic.low, traffic.high);
+        formats::LightRecord record =
+            test::light(formats::LightType::point, lamp.position, {0, -1, 0}, lamp.intensity.x);
+        record.range = lamp.range;
+        scene.addLight(record);
     }
+    return scene.build();
 }
 
-int program()
+/// Return a camera of a pack by its name.
+Result<shared::Camera> findCamera(const formats::PackView& pack, std::string_view name)
+{
+    for (uint32_t i = 0; i < pack.cameras().size(); ++i)
+        if (pack.text(pack.cameras()[i].name) == name)
+            return viewer::sceneCamera(pack, i);
+    return Error{Issue::usage, pack.name(), "", "the pack has no camera \"" + std::string(name) + "\""};
+}
+
+/// Measure all light methods as the device draws them: on the plane, and in the market.
+/// market  a pack of `hearth-samples market --lights 192`; "": without
+Status measureMethods(const std::vector<bench::Ball>& balls, std::span<const shared::Camera> views,
+                      const std::string& market, bench::Judgement& judgement)
+{
+    constexpr VkExtent2D kDrawn{640, 360};
+    HEARTH_ASSIGN_OR_RETURN(bench::MethodMeter meter, bench::MethodMeter::create());
+    std::printf("\nLight methods, drawn by %s in %u x %u, best of several frames\n",
+                meter.host().deviceName().c_str(), kDrawn.width, kDrawn.height);
+    for (const DrawnSet& set : kDrawnSets)
+    {
+        test::TestScene plane;
+        const formats::PackView pack = buildPlane(plane, balls, bench::makeLamps(set.lights));
+        HEARTH_ASSIGN_OR_RETURN(const std::vector<bench::MethodFigures> methods,
+                                meter.measure(pack, views, kDrawn));
+        std::printf("%u lamps over the plane, %zu views\n", set.lights.count, views.size());
+        bench::printMethods(methods);
+        const bench::MethodFigures& cells = methods[static_cast<size_t>(gpu::LightMethod::practical)];
+        judgement.record(set.ratio, cells.evaluated / cells.reaching);
+    }
+    if (market.empty())
+        return success();
+    HEARTH_ASSIGN_OR_RETURN(const pack::Pack pack, pack::Pack::open(market));
+    for (const auto& [name, what] :
+         {std::pair{"thirty", "3 suns, 30 points and two characters"}, std::pair{"street", "its street"}})
+    {
+        HEARTH_ASSIGN_OR_RETURN(const shared::Camera camera, findCamera(pack.view(), name));
+        HEARTH_ASSIGN_OR_RETURN(const std::vector<bench::MethodFigures> methods,
+                                meter.measure(pack.view(), {&camera, 1}, kDrawn));
+        std::printf("The market of %zu lights, %s\n", pack.view().lights().size(), what);
+        bench::printMethods(methods);
+    }
+    return success();
+}
+
+/// returns  exit code: 1 if an aim is missed
+Result<int> measure(const std::string& market)
 {
     bench::Judgement judgement("many-lights");
-    Random random;
-    std::vector<Ball> balls;
-    for (int i = 0; i < kBalls; ++i)
-        balls.push_back({random.place(2), random.uniform(0.3f, 1.5f)});
+    bench::Random random;
+    const std::vector<bench::Ball> balls = bench::makeBalls(random);
+    std::vector<shared::Camera> cameras;
     std::vector<SeenView> views;
     for (int i = 0; i < kViews; ++i)
     {
-        const shared::LightGridView view =
-            makeView(random.place(0), random.uniform(0, 2 * std::numbers::pi_v<float>));
+        cameras.push_back(bench::makeWalker(random));
+        const shared::LightGridView view = bench::makeView(cameras.back(), kWidth, kHeight);
         views.push_back({view, findPoints(view, balls)});
     }
     measureBalls(views, judgement);
-    measureSpots(makeView({0, 0, 5}, 0), judgement);
-    printTraffic();
+    measureSpots(bench::makeView({.position = {0, 1.7f, 5}, .target = {0, 1.7f, 4}}, kWidth, kHeight),
+                 judgement);
+    HEARTH_TRY(measureMethods(balls, std::span(cameras).first(kDrawnViews), market, judgement));
     return judgement.finish();
+}
+
+int program(int argc, char** argv)
+{
+    cli::CommandLine app("Measures the lists of many lights, and all light methods.");
+    std::string market;
+    app.addOption("--market", market, "pack of the sample market, which is drawn as well");
+    if (const std::optional<int> exit_code = app.parse(argc, argv))
+        return *exit_code;
+    const Result<int> measured = measure(market);
+    return measured.ok() ? *measured : reportFailure(measured.error());
 }
 
 } // namespace
 
-int main()
+int main(int argc, char** argv)
 {
-    return hearth::runProgram("hearth_measure_many_lights", [] { return program(); });
+    return hearth::runProgram("hearth_measure_many_lights", [&] { return program(argc, argv); });
 }
