@@ -84,12 +84,14 @@ void GpuTest::SetUpTestSuite()
     replaceRenderer(testRendererOptions());
 }
 
-void GpuTest::replaceRenderer(const gpu::RendererOptions& options)
+void GpuTest::replaceRenderer(const gpu::RendererOptions& options, const VkAllocationCallbacks* allocator)
 {
     renderer_.reset();
     if (host_ == nullptr)
         return;
-    auto renderer = gpu::Renderer::create(host_->description(), options);
+    gpu::DeviceDescription description = host_->description();
+    description.allocator = allocator;
+    auto renderer = gpu::Renderer::create(description, options);
     ASSERT_TRUE(renderer.ok()) << formatMessage(renderer.error());
     renderer_ = std::move(*renderer);
 }

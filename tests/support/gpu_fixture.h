@@ -71,7 +71,9 @@ protected:
     static gpu::Renderer& renderer() { return *renderer_; }
 
     /// Use a renderer with other options from now on, before any scene is uploaded.
-    static void replaceRenderer(const gpu::RendererOptions& options);
+    /// allocator  of its Vulkan objects, or null
+    static void replaceRenderer(const gpu::RendererOptions& options,
+                                const VkAllocationCallbacks* allocator = nullptr);
 
     /// Draw on another device from now on, which gets the one before: exchange them back at the end.
     static void exchangeDevice(std::unique_ptr<viewer::VulkanHost>& host,

@@ -5,12 +5,12 @@
 #include "tests/runtime/gpu/brick_scene.h"
 #include "tests/runtime/gpu/deformed_scene.h"
 #include "tests/runtime/gpu/lights/all_lights_test.h"
+#include "tests/runtime/gpu/lights/light_words.h"
 #include "tests/runtime/gpu/lights/random_light.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surfaces/lattice_texture.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <numbers>
 
 namespace hearth::test
@@ -121,25 +121,6 @@ protected:
         EXPECT_TRUE(rounds_each || 1000 * off_by_two <= image.color.size()) << facts.name;
     }
 
-    /// Words of the frame's lists: counts, numbers of lights, cells, and all indices that are in use.
-    std::vector<uint32_t> lists() const
-    {
-        const gpu::LightBufferLayout& layout = scene_->lights->layout();
-        const std::byte* mapped = scene_->tables->lighting.copy(scene_->tables->frame).mapped;
-        const shared::LightListCounts counts = gpu::readLightCounts(*scene_);
-        std::vector<uint32_t> words;
-        const auto add = [&](VkDeviceSize offset, size_t count)
-        {
-            words.resize(words.size() + count);
-            std::memcpy(words.data() + words.size() - count, mapped + offset, count * sizeof(uint32_t));
-        };
-        add(layout.lists, shared::kLightCountWords + counts.unranged + counts.ranged);
-        add(layout.cells, scene_->lights->grid().cell_count);
-        if (counts.overflows == 0)
-            add(layout.indices, counts.index_words);
-        return words;
-    }
-
     /// Compare the lists of both processors in a frame, and the images of all methods. The last frame is the
     /// default method's.
     void expectOneImage(const shared::Camera& camera, const DrawOptions& options = {}, bool hundreds = false)
@@ -158,9 +139,9 @@ protected:
                 const Image image = draw(*scene_, camera, drawn);
                 expectSame(image, expected, drawn.light_method, hundreds);
                 if (lister == gpu::LightLister::gpu)
-                    on_gpu_ = lists();
+                    on_gpu_ = readLightWords(*scene_);
                 else
-                    EXPECT_EQ(lists(), on_gpu_) << gpu::kLightMethods[method].name;
+                    EXPECT_EQ(readLightWords(*scene_), on_gpu_) << gpu::kLightMethods[method].name;
             }
     }
 
@@ -440,10 +421,10 @@ TEST_F(LightMethodsTest, drawLightsThatFramesAddChangeAndRemove)
             changes.push_back(gpu::changeLight(*scene_, slot, now[slot]).value());
         }
         const Image image = draw(*scene_, targets, kOverview, {.lights = changes});
-        const std::vector<uint32_t> on_gpu = lists();
+        const std::vector<uint32_t> on_gpu = readLightWords(*scene_);
         EXPECT_EQ(draw(*scene_, targets, kOverview, {.light_lister = gpu::LightLister::cpu}).color,
                   image.color);
-        EXPECT_EQ(lists(), on_gpu);
+        EXPECT_EQ(readLightWords(*scene_), on_gpu);
         for (size_t method = 0; method < gpu::kLightMethodCount; ++method)
         {
             const auto drawn = static_cast<gpu::LightMethod>(method);
@@ -456,46 +437,6 @@ TEST_F(LightMethodsTest, drawLightsThatFramesAddChangeAndRemove)
             all.push_back(gpu::changeLight(*fresh, slot, now[slot]).value());
         EXPECT_EQ(draw(*fresh, kOverview, {.lights = all}).color, image.color) << frame;
     }
-}
-
-/// HEARTH_TEST_LIGHT_FRAMES: more frames than the few of a test run.
-TEST_F(LightMethodsTest, thousandsOfLightsMayAllChangeInEachFrame)
-{
-    constexpr uint32_t kLights = shared::kMaxLights;
-    const char* const more = std::getenv("HEARTH_TEST_LIGHT_FRAMES");
-    const int frames = more == nullptr ? 12 : std::atoi(more);
-    addGround();
-    load({.max_lights = kLights});
-    gpu::FrameTargets targets = makeTargets(128, 72);
-    const VkDeviceSize bytes = scene_->arena.allocatedBytes();
-    shared::LightLists twin;
-    std::vector<shared::Light> lights(kLights);
-    std::vector<gpu::LightChange> changes(kLights);
-    for (int frame = 0; frame < frames; ++frame)
-    {
-        for (uint32_t slot = 0; slot < kLights; ++slot)
-        {
-            LightRecord record = randomLight(random_, 2);
-            if (random_() % 4 == 0)
-                record.intensity = 0;
-            changes[slot] = gpu::changeLight(*scene_, slot, record).value();
-            lights[slot] = changes[slot].record;
-        }
-        draw(*scene_, targets, kOverview, {.width = 128, .height = 72, .lights = changes});
-        const shared::LightGridLayout grid = shared::makeLightGrid(
-            shared::lightGridView(makeView(*scene_, kOverview, {.width = 128, .height = 72})));
-        shared::LightListCounts counts;
-        std::vector<uint32_t> rows(kLights), cells(shared::kMaxLightCells), indices(64u * 1024);
-        twin.assign(grid, lights, {&counts, rows, cells, indices});
-        std::vector<uint32_t> expected(shared::kLightCountWords);
-        std::memcpy(expected.data(), &counts, sizeof(counts));
-        expected.insert(expected.end(), rows.begin(), rows.begin() + counts.ranged);
-        expected.insert(expected.end(), cells.begin(), cells.begin() + grid.grid.cell_count);
-        if (counts.overflows == 0)
-            expected.insert(expected.end(), indices.begin(), indices.begin() + counts.index_words);
-        ASSERT_EQ(lists(), expected) << "frame " << frame;
-    }
-    EXPECT_EQ(scene_->arena.allocatedBytes(), bytes);
 }
 
 } // namespace hearth::test
