@@ -84,7 +84,7 @@ protected:
                             })
                         .ok());
         scene_->staging.reset();
-        auto targets = watched_->createTargets({kWidth, kHeight}, {.light_path = gpu::LightPath::surfaces});
+        auto targets = watched_->createTargets({kWidth, kHeight}, {.light_paths = gpu::kAllLightPaths});
         ASSERT_TRUE(targets.ok());
         targets_.emplace(std::move(*targets));
         beginStencilCounts(watched_->device(), static_cast<uint32_t>(ranges_.size()));
