@@ -179,6 +179,27 @@ TEST_F(WindowTest, changesExposureBloomAndPhotoFilterWhileItIsOpen)
     EXPECT_NEAR(mean({}).y, before.y, 0.1f) << "with targets that have no bloom again";
 }
 
+TEST_F(WindowTest, changesTheLightMethodWhileItIsOpen)
+{
+    const Sandbox folder;
+    const auto mean = [&](gpu::LightMethod method)
+    {
+        settings().frame.light_method = method;
+        EXPECT_EQ(play(3), 3u);
+        EXPECT_TRUE(viewer_->saveScreenshot(folder / "view.png").ok());
+        return meanColor(folder / "view.png");
+    };
+    const Float3 before = mean(gpu::LightMethod::practical);
+    for (size_t i = 0; i < gpu::kLightMethodCount; ++i)
+    {
+        const gpu::LightMethodFacts& facts = gpu::kLightMethods[i];
+        const Float3 drawn = mean(static_cast<gpu::LightMethod>(i));
+        EXPECT_NEAR(drawn.y, before.y, facts.approximates ? 5 : 0.3) << facts.name;
+    }
+    settings().frame.post.exposure_stops = 1; // the renderer has all of it
+    EXPECT_GT(mean(gpu::LightMethod::prepass).y, before.y + 10);
+}
+
 /// As the panel does, which is built when a frame has begun.
 TEST_F(WindowTest, drawsFramesWithoutWhatIsNotPreparedYet)
 {

@@ -1,11 +1,7 @@
 // Light of lamps and suns at a pixel, which passes ahead of shading have summed, weighed by its material.
 // Include behind shading.glsl.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#ifdef HEARTH_SAMPLED
-const uint kFirstLightInput = kInputLightSampled;
-#else
-const uint kFirstLightInput = kInputLight;
-#endif
+#include "runtime/shaders/shade/light_inputs.glsl"
 
 layout(input_attachment_index = kFirstLightInput, set = kSetAttachments, binding = kAttachmentLight)
     uniform subpassInput diffuse_light;

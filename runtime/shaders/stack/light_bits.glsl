@@ -1,12 +1,7 @@
 // Bits of the lights that may reach a pixel, which a pass ahead of shading has set.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/light_bits.h"
-
-#ifdef HEARTH_SAMPLED
-const uint kFirstLightInput = kInputLightSampled;
-#else
-const uint kFirstLightInput = kInputLight;
-#endif
+#include "runtime/shaders/shade/light_inputs.glsl"
 
 layout(input_attachment_index = kFirstLightInput, set = kSetAttachments, binding = kAttachmentLight)
     uniform subpassInput low_light_bits;

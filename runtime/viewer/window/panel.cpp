@@ -215,11 +215,7 @@ void Panel::buildImage(FrameSettings& settings, const PanelData& facts)
     ImGui::SliderFloat("Error, pixels", &settings.error_pixels, 0, kMaxError, "%.2f",
                        ImGuiSliderFlags_Logarithmic | ImGuiSliderFlags_AlwaysClamp);
     chooseNamed("Shaded area", shadedAreaNames(), settings.shaded_area);
-    std::vector<Named<gpu::LightMethod>> methods;
-    for (const Named<gpu::LightMethod>& method : lightMethodNames())
-        if (facts.renderer.supports(method.value))
-            methods.push_back(method);
-    chooseNamed("Lights", std::span<const Named<gpu::LightMethod>>(methods), settings.light_method);
+    chooseNamed("Lights", lightMethodNames(), settings.light_method);
     chooseNamed("Lists of lights", lightListerNames(), settings.light_lister);
     if (gpu::hasSkyVisibility(scene))
     {

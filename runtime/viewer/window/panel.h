@@ -33,7 +33,6 @@ struct NamedCamera
 struct PanelData
 {
     const std::string& device;
-    const gpu::Renderer& renderer;
     VkExtent2D extent;
     double frame_seconds; ///< from one frame to the next
     const FrameStatistics& figures;

@@ -235,7 +235,7 @@ Status Viewer::applySettings()
         camera_ = FlyCamera(cameras_[*settings_.camera].camera, camera_.speed());
     settings_.camera.reset();
     lookAtAsset();
-    HEARTH_TRY(supportPost());
+    HEARTH_TRY(supportSettings());
     HEARTH_TRY(prepareLightMethod());
     drawn_ = settings_.frame;
     resized_ = resized_ || (targets_ && targets_->options().may_bloom != needsBloomLevels(drawn_));
@@ -266,20 +266,24 @@ Status Viewer::show(std::unique_ptr<LoadedScene> scene)
     return success();
 }
 
-/// Load the scene with a renderer for all of PostSettings, once they need more than the present one has. Not
-/// from the start: it has twice as many pipelines, and rounds some pixels otherwise than hearth-render.
-Status Viewer::supportPost()
+/// Load the scene with a renderer for all of PostSettings, or for all light methods, once the settings need
+/// more than the present one has. Not from the start: it has more pipelines, and rounds some pixels otherwise
+/// than hearth-render.
+Status Viewer::supportSettings()
 {
     gpu::RendererOptions options = rendererOptions(settings_.frame);
-    if (options.post <= renderer().postSupport())
+    if (options.post <= renderer().postSupport() && renderer().supports(settings_.frame.light_method))
         return success();
     options.post = gpu::PostSupport::packed;
+    options.deferred = options.deferred || renderer().supports(gpu::LightMethod::deferred);
     HEARTH_ASSIGN_OR_RETURN(std::unique_ptr<gpu::Renderer> renderer,
                             gpu::Renderer::create(host_->description(), options));
     HEARTH_TRY(renderer->prepareOverdraw());
     HEARTH_ASSIGN_OR_RETURN(std::unique_ptr<LoadedScene> scene,
                             LoadedScene::load(*host_, *renderer, pack_, scene_->geometryBudget(), shadows_));
-    post_renderer_ = std::move(renderer);
+    HEARTH_TRY(frames_->waitForAll());
+    targets_.reset();
+    std::swap(extended_renderer_, renderer); // the one before goes after the scene that it drew
     resized_ = true;
     return show(std::move(scene));
 }
@@ -348,7 +352,6 @@ void Viewer::buildPanel()
 {
     imgui_->beginFrame();
     panel_.build(settings_, {.device = host_->deviceName(),
-                             .renderer = renderer(),
                              .extent = swapchain_->extent(),
                              .frame_seconds = frame_seconds_,
                              .figures = meter_->figures(),

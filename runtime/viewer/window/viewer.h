@@ -52,9 +52,9 @@ private:
     void handleKey(int32_t key);
     Status applySettings();
     Status show(std::unique_ptr<LoadedScene> scene);
-    Status supportPost();
+    Status supportSettings();
     Status prepareLightMethod();
-    gpu::Renderer& renderer() { return post_renderer_ != nullptr ? *post_renderer_ : *renderer_; }
+    gpu::Renderer& renderer() { return extended_renderer_ != nullptr ? *extended_renderer_ : *renderer_; }
     void lookAtAsset();
     Status resize();
     Result<bool> drawFrame(bool panel, const gpu::Buffer* screenshot);
@@ -92,8 +92,8 @@ private:
     // each needs the ones before it
     std::unique_ptr<SdlWindow> window_;
     std::unique_ptr<VulkanHost> host_;
-    std::unique_ptr<gpu::Renderer> renderer_;      ///< its device is that of all below
-    std::unique_ptr<gpu::Renderer> post_renderer_; ///< draws once it is there
+    std::unique_ptr<gpu::Renderer> renderer_;          ///< its device is that of all below
+    std::unique_ptr<gpu::Renderer> extended_renderer_; ///< draws once it is there
     WindowTable vk_;
     std::unique_ptr<Swapchain> swapchain_;
     std::unique_ptr<FrameRing> frames_;

@@ -387,6 +387,40 @@ TEST_F(LightMethodsTest, drawOneImageInAllCullingsAndInParts)
                 }
 }
 
+/// One image of sums has the colour of diffuse light for all light.
+TEST_F(LightMethodsTest, theClassicPrepassDiffersByTheColourOfHighlights)
+{
+    const auto difference = [&](float metallic, const Float3& lamp_color)
+    {
+        TestScene test;
+        formats::MaterialRecord material = plainMaterial();
+        material.metallic = metallic;
+        material.roughness = 0.6f;
+        test.addInstance(test.addMesh(withMaterial(makeQuad(24, 24), test.addMaterial(material))), lying({}));
+        for (const float x : {-2.0f, 2.0f})
+        {
+            LightRecord lamp = light(LightType::point, {x, 2, 0}, {0, -1, 0}, 30);
+            lamp.range = 20;
+            if (x > 0)
+                lamp.color = lamp_color;
+            test.addLight(lamp);
+        }
+        const formats::PackView pack = test.build();
+        const auto scene = upload(pack);
+        prepareAll(*scene);
+        const Image exact = draw(*scene, kOverview, {.light_method = gpu::LightMethod::prepass});
+        const Image classic = draw(*scene, kOverview, {.light_method = gpu::LightMethod::classic_prepass});
+        double sum = 0;
+        for (size_t i = 0; i < exact.color.size(); ++i)
+            for (int c = 0; c < 3; ++c)
+                sum += std::abs(channel(exact.color[i], c) - channel(classic.color[i], c));
+        return sum / (3.0 * static_cast<double>(exact.color.size()));
+    };
+    const double plain = difference(0, {1, 1, 1});
+    EXPECT_LT(plain, 1) << "all light has one colour, and little of it is specular";
+    EXPECT_GT(difference(1, {1, 0.1f, 0}), 4 * plain);
+}
+
 TEST_F(LightMethodsTest, drawNothingOfLightsThatAreOff)
 {
     addGround();
