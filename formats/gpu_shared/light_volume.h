@@ -8,7 +8,8 @@
 
 HEARTH_SHARED_BEGIN
 
-/// Vertices of a volume: twenty triangles, counterclockwise from outside. A cone repeats its last one.
+/// Vertices of a volume: twenty triangles, counterclockwise from outside. A cone has fewer: the others are
+/// points, so that no pixel is drawn twice.
 HEARTH_CONSTANT uint kLightVolumeVertices = 60;
 HEARTH_CONSTANT uint kLightConeSides = 8;
 HEARTH_CONSTANT uint kLightConeVertices = 42;
@@ -69,8 +70,8 @@ HEARTH_FUNCTION Float3 lightVolumeCorner(HEARTH_IN(CellLight) light, uint vertex
     float behind = light.slack / max(light.sine, 1e-4f);
     float height = light.range + light.slack + behind;
     float base_radius = height * light.sine / light.cosine * kOctagonScale;
-    uint last = kLightConeVertices - 3u + vertex % 3u;
-    Float3 local = lightConeCorner(vertex < kLightConeVertices ? vertex : last, base_radius, height);
+    uint last = kLightConeVertices - 1u;
+    Float3 local = lightConeCorner(vertex < last ? vertex : last, base_radius, height);
     Float3 axis = light.axis;
     Float3 across = abs(axis.x) < 0.5f ? Float3(0.0f, axis.z, -axis.y) : Float3(-axis.z, 0.0f, axis.x);
     across = across * (1.0f / sqrt(dot3(across, across)));

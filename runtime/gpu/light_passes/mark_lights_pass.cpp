@@ -23,8 +23,9 @@ Result<MarkLightsPass> MarkLightsPass::create(const Device& device, const DrawLa
                      .layout = layouts.lit_surfaces.get(),
                      .render_pass = place.render_pass,
                      .subpass = place.subpass,
-                     .cull = VK_CULL_MODE_FRONT_BIT,      // the eye may be in front of the back faces only
-                     .depth_compare = VK_COMPARE_OP_LESS, // of those behind the surface
+                     .cull = VK_CULL_MODE_FRONT_BIT, // the eye may be in front of the back faces only
+                     // the depth may be off: fragments decide
+                     .depth_compare = VK_COMPARE_OP_ALWAYS,
                      .depth_write = false,
                      .colors = 2,
                      .add = true}));
