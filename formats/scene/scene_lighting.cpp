@@ -87,7 +87,8 @@ float lightExposure(std::span<const formats::LightRecord> lights, const Box3& bo
 SceneLighting sceneLighting(std::span<const formats::LightRecord> lights, const Box3& bounds)
 {
     SceneLighting lighting{.sky = {kSkyZenith, kSkyHorizon, kSkyGround},
-                           .exposure = lightExposure(lights, bounds)};
+                           .exposure = lightExposure(lights, bounds),
+                           .lights = {}};
     for (const formats::LightRecord& record : shadedLights(lights))
         lighting.lights.push_back(lightFromRecord(record));
     if (lighting.lights.empty())
