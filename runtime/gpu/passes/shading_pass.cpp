@@ -196,7 +196,8 @@ Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLa
             description.fragment = materialShader(shadowed, true)[reading];
             HEARTH_ASSIGN_OR_RETURN(pipelines.final_gi_pipeline, createGraphicsPipeline(device, description));
         }
-        if (sumsLights(lightPath(output_)))
+        // layers fit into no sums: they are lit where they are shaded
+        if (sumsLights(lightPath(output_)) && variant.unlit == 0 && variant.layers == 0)
             HEARTH_TRY(createNormals(device, layouts, constants, pipelines.normals_pipeline));
         description.fragment = shaders::view_surface_frag[reading];
         if (has_views)
@@ -363,6 +364,8 @@ void ShadingPass::recordMaterials(const Device& device, VkCommandBuffer commands
         const SceneMaterial& material = scene.materials[row];
         const ShadingPipelines& pipelines =
             material.pipelines[static_cast<size_t>(lightMethod(view))][static_cast<size_t>(output_)];
+        if (pipelines.*pipeline == VK_NULL_HANDLE) // it stores no normals
+            continue;
         device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.*pipeline);
         const uint32_t number = row + 1; // 0 is the sky
         const shared::ShadingPush push = shadingPush(view, number, sky_occlusion);

@@ -95,7 +95,7 @@ struct ShadingVariant
 /// Pipelines of a variant; the shading pass owns them.
 struct ShadingPipelines
 {
-    VkPipeline normals_pipeline = VK_NULL_HANDLE; ///< null: the frame stores no surfaces ahead of shading
+    VkPipeline normals_pipeline = VK_NULL_HANDLE; ///< null: none are stored ahead of shading
     VkPipeline final_pipeline = VK_NULL_HANDLE;
     VkPipeline final_gi_pipeline =
         VK_NULL_HANDLE; ///< gathered light (GI) view; null in scenes without bricks

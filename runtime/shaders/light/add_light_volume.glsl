@@ -4,6 +4,8 @@
 #include "runtime/shaders/light/lit_scene.glsl"
 #include "runtime/shaders/light/surface_lights.glsl"
 
+// marks are taken away from pixels without a surface as well
+layout(early_fragment_tests) in;
 layout(location = 0) flat in uint light_row;
 layout(location = 0) out vec4 out_radiance;
 

@@ -1,11 +1,10 @@
-// Stores what lights need of the surfaces of one material, ahead of its shading. Nothing of materials that
-// lights do not reach this way: unlit ones, and those with layers, which are lit where they are shaded.
+// Stores what lights need of the surfaces of one material, ahead of its shading. Materials that are unlit or
+// have layers are not drawn by it: those with layers are lit where they are shaded.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "formats/gpu_shared/decisions.h"
 #include "formats/gpu_shared/shading.h"
-#include "formats/gpu_shared/specialization.h"
 #include "runtime/shaders/scene/scene.glsl"
 #include "runtime/shaders/scene/material.glsl"
 #include "runtime/shaders/scene/surface_point.glsl"
@@ -14,16 +13,13 @@
 #include "runtime/shaders/scene/material_test.glsl"
 #include "runtime/shaders/shade/surface_words.glsl"
 
-layout(constant_id = kConstantUnlit) const bool kUnlit = false;
-layout(constant_id = kConstantLayers) const uint kLayers = 0u;
-
 layout(early_fragment_tests) in;
 layout(location = 0) out uvec4 out_surface;
 
 void main()
 {
     uint id = loadVisibility();
-    if (isForeign(id) || kUnlit || kLayers != 0u)
+    if (isForeign(id))
         discard;
     Surface s = resolveSurface(id, gl_FragCoord.xy);
     SurfacePoint point = surfacePoint(s);

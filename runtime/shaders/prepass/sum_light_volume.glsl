@@ -5,6 +5,8 @@
 #include "runtime/shaders/light/surface_lights.glsl"
 #include "runtime/shaders/prepass/light_sums.glsl"
 
+// marks are taken away from pixels without a surface as well
+layout(early_fragment_tests) in;
 layout(location = 0) flat in uint light_row;
 
 void main()

@@ -25,11 +25,11 @@ using formats::LightType;
 class LightMethodsTest : public AllLightsTest
 {
 protected:
-    /// Add ground with rocks, some of them of glass, and two sheets: the first has holes by an alpha mask,
-    /// the second is blended.
+    /// Add ground with rocks, some of them of glass or unlit, and two sheets: the first has holes by an alpha
+    /// mask, the second is blended.
     void addGround()
     {
-        // all materials have a texture: so they have one variant of the shading pipelines
+        // all materials have a texture: so those that are lit have one variant of the shading pipelines
         formats::MaterialRecord plain = plainMaterial();
         plain.base_color_texture = makeTextureRef(
             test_.addImage(formats::TexelFormat::rgba8_srgb, 64, 32, makeLatticeTexels(64, 32)));
@@ -41,14 +41,18 @@ protected:
         formats::MaterialRecord metal = plain;
         metal.metallic = 1;
         metal.roughness = 0.3f;
+        metal_ = test_.addMaterial(metal);
+        formats::MaterialRecord unlit = plain;
+        unlit.flags |= formats::kMaterialUnlit;
         test_.addInstance(test_.addMesh(withMaterial(makeQuad(24, 24), stone)), lying({}));
         const uint32_t rocks[] = {
             test_.addMesh(withMaterial(shapes::rock(12, 0.3f), stone)),
             test_.addMesh(withMaterial(shapes::rock(12, 0.1f, 2), test_.addMaterial(glass))),
-            test_.addMesh(withMaterial(shapes::rock(12, 0, 3), test_.addMaterial(metal)))};
+            test_.addMesh(withMaterial(shapes::rock(12, 0, 3), metal_)),
+            test_.addMesh(withMaterial(shapes::rock(12, 0.2f, 4), test_.addMaterial(unlit)))};
         for (uint32_t i = 0; i < 9; ++i)
-            test_.addInstance(rocks[i % 3], translated({static_cast<float>(i % 3) * 5 - 5, 0.6f,
-                                                        static_cast<float>(i / 3) * 5 - 6}));
+            test_.addInstance(rocks[i == 4 ? 3 : i % 3], translated({static_cast<float>(i % 3) * 5 - 5, 0.6f,
+                                                                     static_cast<float>(i / 3) * 5 - 6}));
         first_sheet_ = static_cast<uint32_t>(test_.model().instances.size());
         for (const uint32_t mode : {shared::kAlphaMask, shared::kAlphaBlend})
         {
@@ -151,6 +155,7 @@ protected:
     std::unique_ptr<gpu::Scene> scene_;
     std::vector<uint32_t> on_gpu_;
     uint32_t first_sheet_ = 0; ///< instance
+    uint32_t metal_ = 0;       ///< material
 };
 
 constexpr shared::Camera kOverview{.position = {8, 4, 9}, .target = {0, 0, 0}};
@@ -180,6 +185,19 @@ TEST_F(LightMethodsTest, drawGroundThatShowsThroughAMaskAndThroughABlendedSheet)
 TEST_F(LightMethodsTest, drawOneImageByAFewLights)
 {
     addGround();
+    addLights(4, 8);
+    load();
+    expectOneImage(kOverview);
+}
+
+/// Methods that light surfaces apart from their materials light these where they are shaded.
+TEST_F(LightMethodsTest, drawOneImageOfLacquer)
+{
+    addGround();
+    formats::MaterialLayersRecord lacquer = formats::neutralLayers(metal_);
+    lacquer.clearcoat = 0.8f;
+    lacquer.clearcoat_roughness = 0.2f;
+    test_.model().material_layers = {lacquer};
     addLights(4, 8);
     load();
     expectOneImage(kOverview);

@@ -43,19 +43,23 @@ protected:
         GpuTest::TearDown();
     }
 
-    /// Ground with rocks, each second one mirrored.
+    /// Add ground with rocks: each second one is mirrored, and each third one unlit.
     void addGround()
     {
         const uint32_t stone = test_.addMaterial(plainMaterial());
         test_.addInstance(test_.addMesh(withMaterial(makeQuad(24, 24), stone)), lying({}));
-        const uint32_t rock = test_.addMesh(withMaterial(shapes::rock(12, 0.3f), stone));
+        formats::MaterialRecord glow = plainMaterial();
+        glow.flags |= formats::kMaterialUnlit;
+        const uint32_t rocks[] = {
+            test_.addMesh(withMaterial(shapes::rock(12, 0.3f), stone)),
+            test_.addMesh(withMaterial(shapes::rock(12, 0.2f, 2), test_.addMaterial(glow)))};
         for (uint32_t i = 0; i < 9; ++i)
         {
             Affine3 placed =
                 translated({static_cast<float>(i % 3) * 5 - 5, 0.6f, static_cast<float>(i / 3) * 5 - 6});
             if (i % 2 == 1)
                 placed.m[0][0] = -1;
-            test_.addInstance(rock, placed);
+            test_.addInstance(rocks[i % 3 == 2 ? 1 : 0], placed);
         }
     }
 
