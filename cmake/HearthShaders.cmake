@@ -2,6 +2,8 @@
 # Reproducible: no path and no debug information is included. NAME.spv in the build folder still has the names
 # of the source, for tests.
 
+set(HEARTH_SHADER_CACHE "" CACHE PATH "Folder in which builds share compiled shaders; empty: none")
+
 # hearth_shader_library(NAME HEADER ... SHADERS ... [VARIED ... VARIANTS ...]): a static library with the words
 # of the shaders, whose paths are relative to the current folder. HEADER declares a span for each, named after
 # its file, in namespace hearth::shaders. VARIED shaders are compiled once more for each name of VARIANTS, with
@@ -11,6 +13,12 @@ function(hearth_shader_library name)
   find_package(Vulkan REQUIRED COMPONENTS glslc)
   find_program(HEARTH_SPIRV_VAL spirv-val REQUIRED)
   find_program(HEARTH_SPIRV_OPT spirv-opt REQUIRED)
+  set(HEARTH_SHADER_TOOLS "")
+  foreach(tool ${Vulkan_GLSLC_EXECUTABLE} ${HEARTH_SPIRV_VAL} ${HEARTH_SPIRV_OPT})
+    execute_process(COMMAND ${tool} --version OUTPUT_VARIABLE version COMMAND_ERROR_IS_FATAL ANY)
+    string(APPEND HEARTH_SHADER_TOOLS "${version}")
+  endforeach()
+  string(SHA256 HEARTH_SHADER_TOOLS "${HEARTH_SHADER_TOOLS}")
   set(embedded "// Generated.\n#include \"${ARG_HEADER}\"\n\nnamespace hearth::shaders\n{\n")
   set(words_files)
   set(listed) # entries "variable,expression,file" of hearth_shader_list
@@ -64,12 +72,11 @@ function(hearth_compile_shader shader variant variable words)
   set(output ${CMAKE_CURRENT_BINARY_DIR}/${file}.inc)
   add_custom_command(
     OUTPUT ${output}
-    COMMAND ${Vulkan_GLSLC_EXECUTABLE} -Werror -O -g --target-env=vulkan1.1 -I ${PROJECT_SOURCE_DIR} ${macro} -MD -MF ${output}.d
-      -MT ${output} ${CMAKE_CURRENT_SOURCE_DIR}/${shader} -o ${output}.spv
-    COMMAND ${HEARTH_SPIRV_VAL} --target-env vulkan1.1 ${output}.spv
-    COMMAND ${HEARTH_SPIRV_OPT} --strip-debug --compact-ids ${output}.spv -o ${output}.stripped
-    COMMAND ${CMAKE_COMMAND} -D INPUT=${output}.stripped -D OUTPUT=${output} -P ${PROJECT_SOURCE_DIR}/cmake/embed_words.cmake
-    DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${shader} ${PROJECT_SOURCE_DIR}/cmake/embed_words.cmake
+    COMMAND ${CMAKE_COMMAND} -D SHADER=${CMAKE_CURRENT_SOURCE_DIR}/${shader} -D MACRO=${macro} -D OUTPUT=${output}
+      -D INCLUDE=${PROJECT_SOURCE_DIR} -D GLSLC=${Vulkan_GLSLC_EXECUTABLE} -D SPIRV_VAL=${HEARTH_SPIRV_VAL}
+      -D SPIRV_OPT=${HEARTH_SPIRV_OPT} -D TOOLS=${HEARTH_SHADER_TOOLS} -D CACHE=${HEARTH_SHADER_CACHE}
+      -P ${PROJECT_SOURCE_DIR}/cmake/compile_shader.cmake
+    DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${shader} ${PROJECT_SOURCE_DIR}/cmake/compile_shader.cmake
     DEPFILE ${output}.d
     COMMENT "Compiling ${file}"
     VERBATIM)
