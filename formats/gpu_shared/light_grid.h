@@ -1,5 +1,5 @@
 // Grid of cells over the view, each with a list of the lights that reach it: cascades whose depth doubles,
-// each cut into slabs, rows and columns (N. Billeter et al., "Tiled forward shading", GPU Pro 4, and
+// each cut into slabs, rows and columns (M. Billeter et al., "Tiled forward shading", GPU Pro 4, and
 // "Clustered shading" by O. Olsson et al., 2012, with their minimum size of a cell). One source for C++ and
 // GLSL.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided

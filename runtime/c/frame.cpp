@@ -137,8 +137,8 @@ Status checkFrame(const hearth_scene& scene, const hearth_targets& targets, cons
         return usage("light_method is unknown, or hearth_scene_prepare_lights has not prepared it");
     const gpu::LightPath path = gpu::neededLightPath(targets.targets, makeShading(*frame));
     if (!targets.targets.options().allows(path))
-        return usage("light_method needs targets with its flag: HEARTH_TARGETS_DEFERRED, _STACK, _PREPASS or "
-                     "_CLASSIC_PREPASS");
+        return usage("light_method needs targets with its flag: HEARTH_TARGETS_DEFERRED, _STACK, _PREPASS, "
+                     "_CLASSIC_PREPASS or _ENCODED_PREPASS");
     const bool blooms = frame->bloom_strength > 0 || frame->automatic_exposure != 0;
     if (blooms && !targets.targets.options().may_bloom)
         return usage("bloom_strength and automatic_exposure need targets with HEARTH_TARGETS_BLOOM");

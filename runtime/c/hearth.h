@@ -418,7 +418,8 @@ enum
      * where the scene does not need it */
     HEARTH_TARGETS_SPLIT = 2,
     HEARTH_TARGETS_COUNT_MISSING = 4, /* hearth_record_missing may follow a frame: takes a second pyramid */
-    HEARTH_TARGETS_BLOOM = 8, /* frames may have bloom or automatic exposure; with HEARTH_FEATURE_FINAL_PASS */
+    HEARTH_TARGETS_BLOOM =
+        8, /* frames may have bloom or automatic exposure; with HEARTH_FEATURE_FINAL_PASS */
     /* frames may use a light method that stores surfaces; with HEARTH_FEATURE_DEFERRED */
     HEARTH_TARGETS_DEFERRED = 16,
     /* the same, but only HEARTH_LIGHTS_TILE_DEFERRED without bloom, automatic exposure and another output
@@ -427,7 +428,8 @@ enum
     /* frames may use these light methods; with HEARTH_FEATURE_DEFERRED */
     HEARTH_TARGETS_STACK = 64,
     HEARTH_TARGETS_PREPASS = 128,
-    HEARTH_TARGETS_CLASSIC_PREPASS = 256
+    HEARTH_TARGETS_CLASSIC_PREPASS = 256,
+    HEARTH_TARGETS_ENCODED_PREPASS = 512
 };
 
 /* What frames with the targets may ask for (1.8): images that never leave a tile-based GPU's tile need no
@@ -681,12 +683,14 @@ enum
     HEARTH_LIGHTS_TILED_DEFERRED = 6,     /* lists as TILED_FORWARD */
     HEARTH_LIGHTS_CLUSTERED_DEFERRED = 7, /* lists as CLUSTERED_FORWARD */
     HEARTH_LIGHTS_TILE_DEFERRED = 8,      /* as DEFERRED, in one render pass */
-    /* The next three act between visibility and shading, in one render pass, by a renderer with
+    /* The next four act between visibility and shading, in one render pass, by a renderer with
      * HEARTH_FEATURE_DEFERRED. */
     HEARTH_LIGHTS_STACK = 9,    /* bits of a pixel name its lights; the image has the bytes of PRACTICAL */
     HEARTH_LIGHTS_PREPASS = 10, /* lights are summed, and weighed by materials: 2 of 255 at most */
     /* the same with less bytes: specular light has the hue of diffuse light, and the image differs */
-    HEARTH_LIGHTS_CLASSIC_PREPASS = 11
+    HEARTH_LIGHTS_CLASSIC_PREPASS = 11,
+    /* the same, and lights read depths of 16 bits beside the normals, and no others */
+    HEARTH_LIGHTS_ENCODED_PREPASS = 12
 };
 
 /* Processor that lists the lights of cells, of PRACTICAL and ALL (1.8). The lists are the same. */

@@ -58,6 +58,7 @@ static_assert(equal(HEARTH_LIGHTS_TILE_DEFERRED, gpu::LightMethod::tile_deferred
 static_assert(equal(HEARTH_LIGHTS_STACK, gpu::LightMethod::stack));
 static_assert(equal(HEARTH_LIGHTS_PREPASS, gpu::LightMethod::prepass));
 static_assert(equal(HEARTH_LIGHTS_CLASSIC_PREPASS, gpu::LightMethod::classic_prepass));
+static_assert(equal(HEARTH_LIGHTS_ENCODED_PREPASS, gpu::LightMethod::encoded_prepass));
 
 constexpr bool equal(int c, gpu::LightLister lister)
 {

@@ -37,6 +37,7 @@ uint32_t toLightPaths(uint32_t flags)
         {HEARTH_TARGETS_TILE_DEFERRED, gpu::LightPath::surfaces_on_tile},
         {HEARTH_TARGETS_PREPASS, gpu::LightPath::light_sums},
         {HEARTH_TARGETS_CLASSIC_PREPASS, gpu::LightPath::joint_sums},
+        {HEARTH_TARGETS_ENCODED_PREPASS, gpu::LightPath::encoded_joint_sums},
         {HEARTH_TARGETS_STACK, gpu::LightPath::light_bits}};
     uint32_t paths = 0;
     for (const auto& [flag, path] : kPaths)
@@ -53,7 +54,7 @@ Status check(const hearth_renderer& renderer, const hearth_targets_description& 
     constexpr uint32_t kFlags =
         HEARTH_TARGETS_KEEP_VISIBILITY | HEARTH_TARGETS_SPLIT | HEARTH_TARGETS_COUNT_MISSING |
         HEARTH_TARGETS_BLOOM | HEARTH_TARGETS_DEFERRED | HEARTH_TARGETS_TILE_DEFERRED | HEARTH_TARGETS_STACK |
-        HEARTH_TARGETS_PREPASS | HEARTH_TARGETS_CLASSIC_PREPASS;
+        HEARTH_TARGETS_PREPASS | HEARTH_TARGETS_CLASSIC_PREPASS | HEARTH_TARGETS_ENCODED_PREPASS;
     if ((description.flags & ~kFlags) != 0 || description.reserved != 0)
         return usage("flags has bits that this version does not know, or reserved is not 0");
     if ((description.output_width == 0) != (description.output_height == 0))

@@ -37,10 +37,11 @@ constexpr std::string_view kDrawHelp =
     "      --gi off|on         global illumination, in packs with bricks (default: on); off: a constant "
     "sky\n"
     "      --lights METHOD     one of these:\n%LIGHTS%"
-    "      --prepass exact|classic\n"
-    "                          the same as --lights prepass or classic-prepass; hearth-render prints how far "
-    "the image\n"
-    "                          of the second one is off\n"
+    "      --prepass exact|classic|encoded\n"
+    "                          the same as --lights prepass, classic-prepass or encoded-prepass; "
+    "hearth-render "
+    "prints\n"
+    "                          how far the images of the last two are off\n"
     "      --light-lists gpu|cpu\n"
     "                          which processor lists the lights of cells, default gpu; the lists are the "
     "same\n"
@@ -397,15 +398,17 @@ void addDrawOptions(CommandLine& command_line, DrawOptions& options)
                           [&](std::string_view text) {
                               return parseChoice("--lights", lightMethodNames(), text, settings.light_method);
                           });
-    command_line.addValue(
-        "--prepass",
-        [&](std::string_view text)
-        {
-            static constexpr Named<gpu::LightMethod> kMethods[] = {
-                {"exact", gpu::LightMethod::prepass}, {"classic", gpu::LightMethod::classic_prepass}};
-            return parseChoice("--prepass", std::span<const Named<gpu::LightMethod>>(kMethods), text,
-                               settings.light_method);
-        });
+    command_line.addValue("--prepass",
+                          [&](std::string_view text)
+                          {
+                              static constexpr Named<gpu::LightMethod> kMethods[] = {
+                                  {"exact", gpu::LightMethod::prepass},
+                                  {"classic", gpu::LightMethod::classic_prepass},
+                                  {"encoded", gpu::LightMethod::encoded_prepass}};
+                              return parseChoice("--prepass",
+                                                 std::span<const Named<gpu::LightMethod>>(kMethods), text,
+                                                 settings.light_method);
+                          });
     command_line.addValue(
         "--light-lists", [&](std::string_view text)
         { return parseChoice("--light-lists", lightListerNames(), text, settings.light_lister); });

@@ -1,7 +1,7 @@
 // main() of every test program.
 //
 // --sources=a_test.cpp,b_test.cpp runs only the tests of these files, so that one program serves several
-// entries of ctest.
+// entries of ctest. A filter that leaves out tests, such as GTEST_FILTER=-Suite.*, leaves them out here, too.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -66,6 +66,9 @@ bool selectSources(std::string_view list)
     if (filter.empty())
         std::fprintf(stderr, "%s%.*s selects no test\n", kSourcesOption.data(), static_cast<int>(list.size()),
                      list.data());
+    const std::string asked = testing::GTEST_FLAG(filter);
+    if (asked.starts_with('-'))
+        filter += asked;
     testing::GTEST_FLAG(filter) = filter;
     return !filter.empty();
 }

@@ -20,11 +20,15 @@ namespace hearth::gpu
 /// Images and buffers that pass from one step of a frame to another.
 enum class FrameResource : uint8_t
 {
-    visibility,    ///< visible triangle of each pixel; attachment
-    depth,         ///< attachment
-    color,         ///< the shaded frame; attachment
-    surfaces,      ///< what lights need of the surface of a pixel; attachment
-    diffuse_light, ///< sums of LightPath::light_sums and joint_sums; attachments
+    visibility, ///< visible triangle of each pixel; attachment
+    depth,      ///< attachment
+    color,      ///< the shaded frame; attachment
+    surfaces,   ///< what lights behind shading need of the surface of a pixel; attachment
+    // what lights ahead of shading need of it; attachments
+    normals,         ///< LightPath::light_sums
+    joint_normals,   ///< LightPath::joint_sums
+    encoded_normals, ///< LightPath::encoded_joint_sums
+    diffuse_light,   ///< sums of these paths; attachments
     specular_light,
     grazing_light,  ///< specular light that has Schlick's term
     low_light_bits, ///< of LightPath::light_bits: 32 lights each; attachments
@@ -75,10 +79,20 @@ constexpr FrameResource bloomSum(uint32_t level)
 
 /// Attachments that a frame need not take off the tile.
 inline constexpr FrameResource kTileAttachments[] = {
-    FrameResource::visibility,    FrameResource::depth,          FrameResource::color,
-    FrameResource::surfaces,      FrameResource::diffuse_light,  FrameResource::specular_light,
-    FrameResource::grazing_light, FrameResource::low_light_bits, FrameResource::high_light_bits,
+    FrameResource::visibility,      FrameResource::depth,          FrameResource::color,
+    FrameResource::surfaces,        FrameResource::normals,        FrameResource::joint_normals,
+    FrameResource::encoded_normals, FrameResource::diffuse_light,  FrameResource::specular_light,
+    FrameResource::grazing_light,   FrameResource::low_light_bits, FrameResource::high_light_bits,
     FrameResource::radiance};
+
+/// Return the image that FrameStep::normals draws.
+/// path  one that sums lights
+constexpr FrameResource normalsImage(LightPath path)
+{
+    return path == LightPath::light_sums   ? FrameResource::normals
+           : path == LightPath::joint_sums ? FrameResource::joint_normals
+                                           : FrameResource::encoded_normals;
+}
 
 /// True if an image has linear colours: FrameConfiguration::radiance_format.
 constexpr bool isLinear(FrameResource resource)

@@ -25,6 +25,10 @@ VkFormat attachmentFormat(const Pass& pass, FrameResource resource, MaterialTest
         return kColorFormat;
     case FrameResource::surfaces:
         return kSurfacesFormat;
+    case FrameResource::normals:
+    case FrameResource::joint_normals:
+    case FrameResource::encoded_normals:
+        return normalsFormat(resource);
     case FrameResource::diffuse_light:
     case FrameResource::specular_light:
     case FrameResource::grazing_light:

@@ -17,6 +17,13 @@ inline constexpr VkFormat kVisibilityFormat = VK_FORMAT_R32_UINT;
 inline constexpr VkFormat kColorFormat = VK_FORMAT_R8G8B8A8_SRGB;
 /// Words that runtime/shaders/shade/surface_words.glsl packs.
 inline constexpr VkFormat kSurfacesFormat = VK_FORMAT_R32G32B32A32_UINT;
+/// Texels that runtime/shaders/prepass/normal_texel.glsl packs. Every device draws and samples them.
+constexpr VkFormat normalsFormat(FrameResource normals)
+{
+    return normals == FrameResource::normals         ? VK_FORMAT_R32G32_UINT
+           : normals == FrameResource::joint_normals ? VK_FORMAT_A2B10G10R10_UNORM_PACK32
+                                                     : VK_FORMAT_R16G16B16A16_SFLOAT;
+}
 /// Sums of light, and bits of lights: every device blends both.
 inline constexpr VkFormat kLightSumFormat = VK_FORMAT_R16G16B16A16_SFLOAT;
 inline constexpr VkFormat kLightBitsFormat = VK_FORMAT_R8G8B8A8_UNORM;

@@ -101,6 +101,7 @@ std::vector<Resource> listLightImages(LightPath path)
     case LightPath::light_sums:
         return {Resource::diffuse_light, Resource::specular_light, Resource::grazing_light};
     case LightPath::joint_sums:
+    case LightPath::encoded_joint_sums:
         return {Resource::diffuse_light};
     case LightPath::light_bits:
         return {Resource::low_light_bits, Resource::high_light_bits};
@@ -168,7 +169,7 @@ Step normalsStep(const FrameConfiguration& c)
     Step step{.step = FrameStep::normals,
               .kind = PassKind::render,
               .attachments = {{Resource::depth, Access::depth_keep},
-                              {Resource::surfaces, Access::color_write, Content::begin}},
+                              {normalsImage(c.light_path), Access::color_write, Content::begin}},
               .draws = {.cover = c.material_tiles ? Cover::tiles : Cover::triangle, .discards = true}};
     addMaterialReads(c, step);
     return step;
@@ -193,10 +194,11 @@ Step lightStep(const FrameConfiguration& c)
         step.attachments.push_back({Resource::radiance, Access::color_write, Content::keep});
     for (const Resource image : listLightImages(c.light_path))
         step.attachments.push_back({image, Access::color_write, Content::begin});
+    const Resource lit = storesSurfaces(c.light_path) ? Resource::surfaces : normalsImage(c.light_path);
     if (hasSubpasses(c.way))
-        step.attachments.push_back({Resource::surfaces, Access::input});
+        step.attachments.push_back({lit, Access::input});
     else
-        step.uses.push_back({Resource::surfaces, Access::fragment_read});
+        step.uses.push_back({lit, Access::fragment_read});
     addVolumeReads(c, step);
     return step;
 }
@@ -840,7 +842,8 @@ std::vector<FrameConfiguration> allConfigurations(FrameWay way, MaterialTest mat
     {
         add(LightPath::surfaces_on_tile, 1, 2);
         add(LightPath::surfaces, 1, kFinalPassCount);
-        for (const LightPath path : {LightPath::light_sums, LightPath::joint_sums, LightPath::light_bits})
+        for (const LightPath path : {LightPath::light_sums, LightPath::joint_sums,
+                                     LightPath::encoded_joint_sums, LightPath::light_bits})
             add(path, 0, kFinalPassCount);
     }
     return all;
@@ -855,7 +858,8 @@ uint32_t configurationIndex(const FrameConfiguration& c)
                                          kFinalPassCount,
                                          2 * kFinalPassCount,
                                          3 * kFinalPassCount,
-                                         4 * kFinalPassCount};
+                                         4 * kFinalPassCount,
+                                         5 * kFinalPassCount};
     static_assert(std::size(kFirstBlocks) == kLightPathCount);
     const uint32_t finals = c.has_final_pass ? 1 + bit(c.adapts_exposure, 0) + bit(c.blooms, 1) : 0;
     const uint32_t block = kFirstBlocks[static_cast<size_t>(c.light_path)] + finals;

@@ -15,8 +15,8 @@ namespace
 constexpr const char* kWayNames[] = {"merged", "separate", "one-set"};
 constexpr const char* kOcclusionNames[] = {"off", "last-frame", "two-phase"};
 constexpr const char* kMaterialTestNames[] = {"depth", "id"};
-constexpr const char* kLightPathNames[] = {"materials",  "surfaces-on-tile", "surfaces",
-                                           "light-sums", "joint-sums",       "light-bits"};
+constexpr const char* kLightPathNames[] = {"materials",  "surfaces-on-tile",   "surfaces",  "light-sums",
+                                           "joint-sums", "encoded-joint-sums", "light-bits"};
 constexpr const char* kLoadNames[] = {"none", "clear", "load"};
 constexpr const char* kKindNames[] = {"compute", "render", "transfer"};
 

@@ -33,6 +33,9 @@ AddLightsPass::Shaders AddLightsPass::chooseShaders(bool shadowed) const
     case LightPath::joint_sums:
         return shadowed ? Shaders{join_lights_shadowed_frag, join_light_volume_shadowed_frag}
                         : Shaders{join_lights_frag, join_light_volume_frag};
+    case LightPath::encoded_joint_sums:
+        return shadowed ? Shaders{join_encoded_lights_shadowed_frag, join_encoded_light_volume_shadowed_frag}
+                        : Shaders{join_encoded_lights_frag, join_encoded_light_volume_frag};
     default:
         return shadowed ? Shaders{add_lights_shadowed_frag, add_light_volume_shadowed_frag}
                         : Shaders{add_lights_frag, add_light_volume_frag};
@@ -113,7 +116,7 @@ void AddLightsPass::record(const Device& device, VkCommandBuffer commands, const
     const auto found = pipelines_.find(makeVariant(scene, view.light_method, usesGi(scene, view)));
     HEARTH_ASSERT(found != pipelines_.end() && scene.lit_sets != nullptr);
     const uint32_t frame = scene.tables->frame;
-    scene.lit_sets->setImages(device, frame, targets.litImages());
+    scene.lit_sets->setImages(device, frame, targets.litImages(path_));
     const VkDescriptorSet set = scene.lit_sets->set(frame);
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layouts.lit_surfaces.get(),
                                       shared::kSetScene, 1, &set, 0, nullptr);

@@ -39,7 +39,7 @@ void MarkLightsPass::record(const Device& device, VkCommandBuffer commands, cons
     if (lights == 0)
         return;
     const uint32_t frame = scene.tables->frame;
-    scene.lit_sets->setImages(device, frame, targets.litImages());
+    scene.lit_sets->setImages(device, frame, targets.litImages(LightPath::light_bits));
     const VkDescriptorSet set = scene.lit_sets->set(frame);
     device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layouts.lit_surfaces.get(),
                                       shared::kSetScene, 1, &set, 0, nullptr);

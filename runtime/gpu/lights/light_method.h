@@ -24,6 +24,7 @@ enum class LightMethod : uint8_t
     stack,
     prepass,
     classic_prepass,
+    encoded_prepass,
     count,
 };
 inline constexpr size_t kLightMethodCount = static_cast<size_t>(LightMethod::count);
@@ -56,8 +57,9 @@ enum class LightPath : uint8_t
     /// specular light without and with the share of Schlick's term. Runs in the render pass of visibility and
     /// shading.
     light_sums,
-    joint_sums, ///< the same with the luminance of specular light alone, beside the diffuse light
-    light_bits, ///< lights that reach a pixel are marked ahead of shading, in the same render pass
+    joint_sums,         ///< the same with the luminance of specular light alone, beside the diffuse light
+    encoded_joint_sums, ///< the same, and lights read the depth from the image of normals
+    light_bits,         ///< lights that reach a pixel are marked ahead of shading, in the same render pass
     count,
 };
 inline constexpr size_t kLightPathCount = static_cast<size_t>(LightPath::count);
@@ -76,10 +78,16 @@ constexpr bool storesSurfaces(LightPath path)
     return path == LightPath::surfaces_on_tile || path == LightPath::surfaces;
 }
 
+/// True if the sums of a pixel are in one image.
+constexpr bool joinsSums(LightPath path)
+{
+    return path == LightPath::joint_sums || path == LightPath::encoded_joint_sums;
+}
+
 /// True if shading weighs sums of light.
 constexpr bool sumsLights(LightPath path)
 {
-    return path == LightPath::light_sums || path == LightPath::joint_sums;
+    return path == LightPath::light_sums || joinsSums(path);
 }
 
 /// Output of shading: frames of each have pipelines of their own.
@@ -94,6 +102,8 @@ enum class ShadedOutput : uint8_t
     summed_radiance,
     joint_color,
     joint_radiance,
+    encoded_joint_color,
+    encoded_joint_radiance,
     marked_color,
     marked_radiance,
     count,
@@ -102,10 +112,11 @@ inline constexpr size_t kShadedOutputCount = static_cast<size_t>(ShadedOutput::c
 
 constexpr LightPath lightPath(ShadedOutput output)
 {
-    constexpr LightPath kPaths[] = {LightPath::materials,  LightPath::materials,  LightPath::surfaces_on_tile,
-                                    LightPath::surfaces,   LightPath::light_sums, LightPath::light_sums,
-                                    LightPath::joint_sums, LightPath::joint_sums, LightPath::light_bits,
-                                    LightPath::light_bits};
+    constexpr LightPath kPaths[] = {
+        LightPath::materials,          LightPath::materials,  LightPath::surfaces_on_tile,
+        LightPath::surfaces,           LightPath::light_sums, LightPath::light_sums,
+        LightPath::joint_sums,         LightPath::joint_sums, LightPath::encoded_joint_sums,
+        LightPath::encoded_joint_sums, LightPath::light_bits, LightPath::light_bits};
     static_assert(std::size(kPaths) == kShadedOutputCount);
     return kPaths[static_cast<size_t>(output)];
 }
@@ -114,7 +125,8 @@ constexpr LightPath lightPath(ShadedOutput output)
 constexpr bool isRadiance(ShadedOutput output)
 {
     return output != ShadedOutput::color && output != ShadedOutput::summed_color &&
-           output != ShadedOutput::joint_color && output != ShadedOutput::marked_color;
+           output != ShadedOutput::joint_color && output != ShadedOutput::encoded_joint_color &&
+           output != ShadedOutput::marked_color;
 }
 
 /// True if frames of methods with a path may have an output: those on the tile may have to leave it.
@@ -173,6 +185,8 @@ inline constexpr LightMethodFacts kLightMethods[] = {
      shared::kLightListVolumes, LightAreas::cells, LightPath::light_sums},
     {"classic-prepass", "the same with the luminance of specular light alone, in a third of the bytes",
      shared::kLightListVolumes, LightAreas::cells, LightPath::joint_sums, true},
+    {"encoded-prepass", "the same, with depths of 16 bits beside the normals, for lights that read no others",
+     shared::kLightListVolumes, LightAreas::cells, LightPath::encoded_joint_sums, true},
 };
 static_assert(std::size(kLightMethods) == kLightMethodCount);
 

@@ -117,12 +117,17 @@ bool FrameTargets::needs(FrameResource resource) const
     switch (resource)
     {
     case FrameResource::surfaces:
-        return options_.mayStoreSurfaces() || options_.maySumLights();
-    case FrameResource::diffuse_light:
-        return options_.maySumLights();
+        return options_.mayStoreSurfaces();
+    case FrameResource::normals:
     case FrameResource::specular_light:
     case FrameResource::grazing_light:
         return options_.has(LightPath::light_sums);
+    case FrameResource::joint_normals:
+        return options_.has(LightPath::joint_sums);
+    case FrameResource::encoded_normals:
+        return options_.has(LightPath::encoded_joint_sums);
+    case FrameResource::diffuse_light:
+        return options_.maySumLights();
     default:
         return options_.has(LightPath::light_bits);
     }
@@ -158,10 +163,19 @@ Status FrameTargets::createImages(const Device& device, const FramePasses& passe
                       VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | (options_.light_paths != 0 ? kInput : 0),
                       VK_IMAGE_USAGE_SAMPLED_BIT,
                       VK_IMAGE_ASPECT_DEPTH_BIT | (has_stencil ? VK_IMAGE_ASPECT_STENCIL_BIT : 0)));
-    if (needs(FrameResource::surfaces))
-        HEARTH_TRY(create(surfaces_, FrameResource::surfaces, kSurfacesFormat,
-                          VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | input, VK_IMAGE_USAGE_SAMPLED_BIT,
-                          VK_IMAGE_ASPECT_COLOR_BIT));
+    const auto create_lit = [&](Image& image, FrameResource resource, VkFormat format) -> Status
+    {
+        if (needs(resource))
+            HEARTH_TRY(create(image, resource, format, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | input,
+                              VK_IMAGE_USAGE_SAMPLED_BIT, VK_IMAGE_ASPECT_COLOR_BIT));
+        return success();
+    };
+    HEARTH_TRY(create_lit(surfaces_, FrameResource::surfaces, kSurfacesFormat));
+    for (size_t i = 0; i < normals_.size(); ++i)
+    {
+        const auto resource = static_cast<FrameResource>(static_cast<size_t>(FrameResource::normals) + i);
+        HEARTH_TRY(create_lit(normals_[i], resource, normalsFormat(resource)));
+    }
     depth_leaves_tile_ = leave_tile.contains(FrameResource::depth);
     for (size_t i = 0; i < light_images_.size(); ++i)
     {
@@ -196,6 +210,10 @@ const Image& FrameTargets::attachmentImage(FrameResource resource, uint32_t expo
         return color_;
     case FrameResource::surfaces:
         return surfaces_;
+    case FrameResource::normals:
+    case FrameResource::joint_normals:
+    case FrameResource::encoded_normals:
+        return normals_[static_cast<size_t>(resource) - static_cast<size_t>(FrameResource::normals)];
     case FrameResource::diffuse_light:
     case FrameResource::specular_light:
     case FrameResource::grazing_light:
@@ -208,6 +226,16 @@ const Image& FrameTargets::attachmentImage(FrameResource resource, uint32_t expo
     default:
         return post_ ? post_->image(resource) : kNone;
     }
+}
+
+LitImages FrameTargets::litImages(LightPath path) const
+{
+    // marks of lights read the depth alone
+    const Image& lit = storesSurfaces(path) ? surfaces_
+                       : sumsLights(path)   ? attachmentImage(normalsImage(path), 0)
+                                            : visibility_;
+    return {lit.view.get(), sampled_depth_.get(), texel_sampler_.get(),
+            sets_[static_cast<size_t>(path)].identity};
 }
 
 VkFramebuffer FrameTargets::framebuffer(uint32_t family) const

@@ -52,7 +52,10 @@ struct TargetOptions
                (path == LightPath::surfaces_on_tile && has(LightPath::surfaces));
     }
     bool mayStoreSurfaces() const { return has(LightPath::surfaces) || has(LightPath::surfaces_on_tile); }
-    bool maySumLights() const { return has(LightPath::light_sums) || has(LightPath::joint_sums); }
+    bool maySumLights() const
+    {
+        return has(LightPath::light_sums) || has(LightPath::joint_sums) || has(LightPath::encoded_joint_sums);
+    }
 };
 
 /// True if every frame with targets of this size has a final pass.
@@ -102,12 +105,8 @@ public:
         const PathSet& set = own.set != VK_NULL_HANDLE ? own : sets_[0];
         return {set.set, set.identity};
     }
-    /// With TargetOptions::light_paths. Without stored surfaces nothing reads those.
-    LitImages litImages() const
-    {
-        const Image& surfaces = surfaces_.view.get() != VK_NULL_HANDLE ? surfaces_ : visibility_;
-        return {surfaces.view.get(), sampled_depth_.get(), texel_sampler_.get(), sets_[0].identity};
-    }
+    /// Images that lights read in frames with a path of TargetOptions::light_paths.
+    LitImages litImages(LightPath path) const;
     VkDeviceSize allocatedBytes() const { return arena_.allocatedBytes(); }
     /// Bytes of attachments that exist on the tile only, where the device has lazily allocated memory;
     /// allocatedBytes leaves them out.
@@ -178,7 +177,8 @@ private:
     MemoryArena arena_;
     Image visibility_;
     Image depth_;
-    Image surfaces_; ///< of paths that store them
+    Image surfaces_;               ///< of paths that store them
+    std::array<Image, 3> normals_; ///< of paths that sum lights, from FrameResource::normals on
     /// Images of paths that add or mark lights ahead of shading, from FrameResource::diffuse_light on.
     std::array<Image, 5> light_images_;
     bool depth_leaves_tile_ = false;

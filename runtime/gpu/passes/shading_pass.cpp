@@ -69,8 +69,8 @@ const shaders::VariedShader& ShadingPass::materialShader(bool shadowed, bool gi)
                                     &joint_shadowed_gi_frag};
     static constexpr Shaders kMarked{&marked_frag, &marked_shadowed_frag, &marked_gi_frag,
                                      &marked_shadowed_gi_frag};
-    static constexpr const Shaders* kByPath[] = {&kShading, &kSurfaces, &kSurfaces,
-                                                 &kSummed,  &kJoint,    &kMarked};
+    static constexpr const Shaders* kByPath[] = {&kShading, &kSurfaces, &kSurfaces, &kSummed,
+                                                 &kJoint,   &kJoint,    &kMarked};
     static_assert(std::size(kByPath) == kLightPathCount);
     const Shaders& own = *kByPath[static_cast<size_t>(lightPath(output_))];
     return gi ? (shadowed ? *own.shadowed_gi : *own.gi) : (shadowed ? *own.shadowed : *own.plain);
@@ -214,8 +214,11 @@ Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLa
 Status ShadingPass::createNormals(const Device& device, const DrawLayouts& layouts,
                                   const DrawConstants& constants, UniquePipeline& pipeline) const
 {
-    GraphicsDescription description =
-        describe(shaders::normals_frag[shaderVariant(way_)], layouts.shading.get());
+    const LightPath path = lightPath(output_);
+    const shaders::VariedShader& shader = path == LightPath::light_sums   ? shaders::normals_frag
+                                          : path == LightPath::joint_sums ? shaders::joint_normals_frag
+                                                                          : shaders::encoded_normals_frag;
+    GraphicsDescription description = describe(shader[shaderVariant(way_)], layouts.shading.get());
     description.render_pass = normals_place_.render_pass;
     description.subpass = normals_place_.subpass;
     description.constants = constants;

@@ -6,19 +6,9 @@
 struct GatherTexels
 {
     uvec4 mean;    // mean radiance and sky share as halves, normal, distance of the plane of the point
-    // m1 / m0 along the two axes of gatherAxes; the narrow and the wide specular lobe as R11G11B10F
+    // m1 / m0 along the two axes of axesAcross; the narrow and the wide specular lobe as R11G11B10F
     uvec4 lobes;
 };
-
-// Compute two unit vectors across a normal. T. Duff et al., "Building an orthonormal basis, revisited", 2017.
-void gatherAxes(vec3 n, out vec3 first, out vec3 second)
-{
-    float side = n.z < 0.0 ? -1.0 : 1.0;
-    float a = -1.0 / (side + n.z);
-    float b = n.x * n.y * a;
-    first = vec3(1.0 + side * n.x * n.x * a, side * b, -side * n.x);
-    second = vec3(b, side + n.y * n.y * a, -n.y);
-}
 
 // Distance of the plane from the eye; infinite where nothing is known because the tile shows only sky.
 const uint kNoPlane = 0x7F800000u;
@@ -42,7 +32,7 @@ GatherTexels encodeGatherTexels(GatherPoint point)
     uint normal_code = packSnorm2x16(octahedralPoint(point.normal));
     vec3 normal = octahedralDirection(unpackSnorm2x16(normal_code));
     vec3 first, second;
-    gatherAxes(normal, first, second);
+    axesAcross(normal, first, second);
     vec4 mean = min(vec4(point.mean, point.sky), vec4(most));
     vec3 along_first = vec3(dot(first, point.red.xyz), dot(first, point.green.xyz), dot(first, point.blue.xyz));
     vec3 along_second = vec3(dot(second, point.red.xyz), dot(second, point.green.xyz), dot(second, point.blue.xyz));

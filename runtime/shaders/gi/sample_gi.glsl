@@ -47,7 +47,7 @@ GiSample sampleGi(vec2 pixel, vec3 position, vec3 normal, mediump float roughnes
         vec4 mean = vec4(unpackHalf2x16(code.x), unpackHalf2x16(code.y));
         uvec4 lobes = texelFetch(gathered, ivec2(tile.x * 2 + 1, tile.y), 0);
         vec3 first, second;
-        gatherAxes(point_normal, first, second);
+        axesAcross(point_normal, first, second);
         // formats/gpu_shared/gather.h explains 8 / 3
         mediump float along_first = dot(first, normal);
         mediump float along_second = dot(second, normal);

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/shaders/light/lit_scene.glsl"
 #include "runtime/shaders/light/surface_lights.glsl"
+#include "runtime/shaders/light/stored_surface.glsl"
 
 // marks are taken away from pixels without a surface as well
 layout(early_fragment_tests) in;
@@ -11,8 +12,8 @@ layout(location = 0) out vec4 out_radiance;
 
 void main()
 {
-    uvec4 words = loadSurface();
-    if (words == kNoSurface)
+    PlacedSurface surface;
+    if (!loadSurface(surface))
         discard;
-    out_radiance = vec4(storedRadiance(lightRadiance(placedSurface(words), lights[light_row])), 0.0);
+    out_radiance = vec4(storedRadiance(lightRadiance(surface, lights[light_row])), 0.0);
 }

@@ -3,16 +3,16 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/shaders/light/lit_scene.glsl"
 #include "runtime/shaders/light/surface_lights.glsl"
+#include "runtime/shaders/light/stored_surface.glsl"
 #include "runtime/shaders/shade/light_list.glsl"
 
 layout(location = 0) out vec4 out_radiance;
 
 void main()
 {
-    uvec4 words = loadSurface();
-    if (words == kNoSurface)
+    PlacedSurface surface;
+    if (!loadSurface(surface))
         discard;
-    PlacedSurface surface = placedSurface(words);
     vec3 radiance = vec3(0.0);
     LightListing listing = findLights(surface.position, gl_FragCoord.xy, 0u);
     for (uint i = 0u; i < listing.count; ++i)

@@ -1,26 +1,15 @@
-// Light of lamps and suns that surfaces, which shading has stored, reflect towards the eye. Include behind
-// shadow.glsl or unshadowed.glsl.
+// Light of lamps and suns that stored surfaces reflect towards the eye. Include behind shadow.glsl or
+// unshadowed.glsl, with stored_surface.glsl or prepass/stored_normal.glsl, which load the surface of a pixel.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/reflector.h"
 #include "formats/gpu_shared/specialization.h"
 #include "runtime/shaders/scene/directions.glsl"
-#include "runtime/shaders/light/pixel_position.glsl"
 #include "runtime/shaders/scene/light_block.glsl"
 #include "runtime/shaders/shade/brdf.glsl"
 #include "runtime/shaders/shade/light_irradiance.glsl"
 #include "runtime/shaders/shade/stored_radiance.glsl"
-#include "runtime/shaders/shade/surface_words.glsl"
+#include "runtime/shaders/shade/lit_surface.glsl"
 
-#ifdef HEARTH_SAMPLED
-layout(set = kSetScene, binding = kAttachmentSurfaces) uniform usampler2D stored_surfaces;
-
-uvec4 loadSurface() { return texelFetch(stored_surfaces, ivec2(gl_FragCoord.xy), 0); }
-#else
-layout(input_attachment_index = kInputSurfaces, set = kSetScene, binding = kAttachmentSurfaces)
-    uniform usubpassInput stored_surfaces;
-
-uvec4 loadSurface() { return subpassLoad(stored_surfaces); }
-#endif
 layout(constant_id = kConstantReflects) const bool kReflects = false;
 
 vec3 reflectedShare(Light light, vec3 from_lamp) { return kReflects ? reflectorShare(light, from_lamp) : vec3(0.0); }
@@ -34,12 +23,10 @@ struct PlacedSurface
     float error;
 };
 
-// words  not kNoSurface
-PlacedSurface placedSurface(uvec4 words)
+PlacedSurface placedSurface(LitSurface surface, vec3 position)
 {
-    LitSurface surface = unpackSurface(words);
     PlacedSurface placed;
-    placed.position = pixelPosition(gl_FragCoord.xy, loadDepth());
+    placed.position = position;
     placed.flat_normal = surface.flat_normal;
     placed.error = surface.error;
     placed.shading.roughness = surface.roughness;

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/shaders/light/lit_scene.glsl"
 #include "runtime/shaders/light/surface_lights.glsl"
+#include "runtime/shaders/prepass/stored_normal.glsl"
 #include "runtime/shaders/prepass/light_sums.glsl"
 
 // marks are taken away from pixels without a surface as well
@@ -11,10 +12,10 @@ layout(location = 0) flat in uint light_row;
 
 void main()
 {
-    uvec4 words = loadSurface();
-    if (words == kNoSurface)
+    PlacedSurface surface;
+    if (!loadSurface(surface))
         discard;
     LightSums sums = LightSums(vec3(0.0), vec3(0.0), vec3(0.0));
-    addLight(sums, placedSurface(words), lights[light_row]);
+    addLight(sums, surface, lights[light_row]);
     writeSums(sums);
 }

@@ -3,15 +3,15 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/shaders/light/lit_scene.glsl"
 #include "runtime/shaders/light/surface_lights.glsl"
+#include "runtime/shaders/prepass/stored_normal.glsl"
 #include "runtime/shaders/shade/light_list.glsl"
 #include "runtime/shaders/prepass/light_sums.glsl"
 
 void main()
 {
-    uvec4 words = loadSurface();
-    if (words == kNoSurface)
+    PlacedSurface surface;
+    if (!loadSurface(surface))
         discard;
-    PlacedSurface surface = placedSurface(words);
     LightSums sums = LightSums(vec3(0.0), vec3(0.0), vec3(0.0));
     LightListing listing = findLights(surface.position, gl_FragCoord.xy, 0u);
     for (uint i = 0u; i < listing.count; ++i)

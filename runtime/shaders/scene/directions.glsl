@@ -30,4 +30,14 @@ vec3 octahedralDirection(vec2 p)
     return normalize(n);
 }
 
+// Compute two unit vectors across a normal. T. Duff et al., "Building an orthonormal basis, revisited", 2017.
+void axesAcross(vec3 n, out vec3 first, out vec3 second)
+{
+    float side = n.z < 0.0 ? -1.0 : 1.0;
+    float a = -1.0 / (side + n.z);
+    float b = n.x * n.y * a;
+    first = vec3(1.0 + side * n.x * n.x * a, side * b, -side * n.x);
+    second = vec3(b, side + n.y * n.y * a, -n.y);
+}
+
 #endif

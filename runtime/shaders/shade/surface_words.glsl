@@ -1,16 +1,7 @@
-// Surface of a pixel as lights need it, in four words.
+// Surface of a pixel in four words.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/shaders/scene/directions.glsl"
-
-struct LitSurface
-{
-    vec3 normal; // unit, world axes, towards the visible side
-    vec3 flat_normal; // the same of the triangle
-    mediump vec3 base; // colour
-    mediump float metallic;
-    float roughness; // perceptual, above 0
-    float error; // metres, bounds the distance of the triangle to the source
-};
+#include "runtime/shaders/shade/lit_surface.glsl"
 
 // No lights: the sky, or a surface that shading has lit.
 const uvec4 kNoSurface = uvec4(0u);

@@ -51,8 +51,8 @@ std::vector<FrameConfiguration> everyConfiguration()
                     if (materials != MaterialTest::id)
                         continue;
                     finished.radiance_format = VK_FORMAT_R16G16B16A16_SFLOAT;
-                    for (const LightPath path :
-                         {LightPath::light_sums, LightPath::joint_sums, LightPath::light_bits})
+                    for (const LightPath path : {LightPath::light_sums, LightPath::joint_sums,
+                                                 LightPath::encoded_joint_sums, LightPath::light_bits})
                     {
                         FrameConfiguration& ahead = all.emplace_back(random() % 2 != 0 ? c : finished);
                         ahead.radiance_format = VK_FORMAT_R16G16B16A16_SFLOAT;
@@ -244,8 +244,8 @@ const AllowedWarning kAllowed[] = {
     {LintRule::tile_storage, kSums, "bits", "surfaces and sums at once: the pre-pass is there to compare",
      true},
     {LintRule::tile_storage, kSplitSums, "bits", "as above", true},
-    {LintRule::tile_storage, kSums, "256 bits", "as above, with one image of sums"},
-    {LintRule::tile_storage, kSplitSums, "256 bits", "as above"},
+    {LintRule::tile_storage, kSums, "bits", "as above, with one image of sums"},
+    {LintRule::tile_storage, kSplitSums, "bits", "as above"},
     {LintRule::tile_storage, "early visibility", "bits", "shares pipelines with the pre-pass", true},
     {LintRule::tile_storage, "visibility", "bits", "as above", true},
     {LintRule::tile_storage, kMarks, "160 bits", "bits of lights and linear colours"},
@@ -653,11 +653,12 @@ TEST(FramePasses, lightsAheadOfShadingStayOnTheTile)
     const Traffic shaded = measureTraffic(describeFrame(c));
     // unmerged, the depth is stored and loaded, and so are images between two subpasses; the normals are one
     // more reader of the visibility buffer
-    constexpr double kDepth = 2 * 4, kSurfaces = 2 * 16, kVisibility = 4;
+    constexpr double kDepth = 2 * 4, kVisibility = 4;
     constexpr std::pair<LightPath, double> kUnmerged[] = {
         {LightPath::light_bits, kDepth + 2 * 2 * 4},
-        {LightPath::joint_sums, kDepth + kSurfaces + kVisibility + 2 * 8},
-        {LightPath::light_sums, kDepth + kSurfaces + kVisibility + 2 * 3 * 8}};
+        {LightPath::joint_sums, kDepth + 2 * 4 + kVisibility + 2 * 8},
+        {LightPath::encoded_joint_sums, kDepth + 2 * 8 + kVisibility + 2 * 8},
+        {LightPath::light_sums, kDepth + 2 * 8 + kVisibility + 2 * 3 * 8}};
     for (const auto& [path, bytes] : kUnmerged)
     {
         c.light_path = path;

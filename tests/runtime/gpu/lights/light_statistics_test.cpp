@@ -278,8 +278,9 @@ TEST_F(LightStatisticsTest, countThePixelsInVolumes)
                 countLights([&](const shared::CellLight& light) { return isInLightVolume(light, place); });
         }
     const uint32_t reaching = count(gpu::LightMethod::all).reaching_low;
-    for (const gpu::LightMethod method : {gpu::LightMethod::deferred, gpu::LightMethod::tile_deferred,
-                                          gpu::LightMethod::prepass, gpu::LightMethod::classic_prepass})
+    for (const gpu::LightMethod method :
+         {gpu::LightMethod::deferred, gpu::LightMethod::tile_deferred, gpu::LightMethod::prepass,
+          gpu::LightMethod::classic_prepass, gpu::LightMethod::encoded_prepass})
     {
         const shared::LightListCounts counts = count(method);
         EXPECT_EQ(counts.reaching_low, reaching);

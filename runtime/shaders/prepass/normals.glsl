@@ -1,0 +1,30 @@
+// Stores what lights need of the surfaces of one material, ahead of its shading. Materials that are unlit or
+// have layers are not drawn by it: those with layers are lit where they are shaded. Shaders that include it
+// define the layout: normal_texel.glsl.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/decisions.h"
+#include "formats/gpu_shared/shading.h"
+#include "runtime/shaders/scene/scene.glsl"
+#include "runtime/shaders/scene/material.glsl"
+#include "runtime/shaders/scene/surface_point.glsl"
+#include "runtime/shaders/scene/resolve.glsl"
+#include "runtime/shaders/scene/visibility_input.glsl"
+#include "runtime/shaders/scene/material_test.glsl"
+#include "runtime/shaders/prepass/normal_texel.glsl"
+
+layout(early_fragment_tests) in;
+layout(location = 0) out NormalTexel out_normal;
+
+void main()
+{
+    uint id = loadVisibility();
+    if (isForeign(id))
+        discard;
+    Surface s = resolveSurface(id, gl_FragCoord.xy);
+    SurfacePoint point = surfacePoint(s);
+    SurfaceUvs uvs = surfaceUvs(s);
+    vec4 metallic_roughness = sampleSurface(uvs, kTextureMetallicRoughness, metallic_roughness_texture);
+    StoredNormal stored = StoredNormal(shadingNormal(point, uvs), point.flat_normal,
+                                       surfaceRoughness(metallic_roughness), point.error);
+    out_normal = packNormal(stored, dot(view.clip_w.xyz, point.position));
+}
