@@ -418,8 +418,8 @@ enum
      * where the scene does not need it */
     HEARTH_TARGETS_SPLIT = 2,
     HEARTH_TARGETS_COUNT_MISSING = 4, /* hearth_record_missing may follow a frame: takes a second pyramid */
-    HEARTH_TARGETS_BLOOM =
-        8, /* frames may have bloom or automatic exposure; with HEARTH_FEATURE_FINAL_PASS */
+    /* frames may have bloom or automatic exposure; with HEARTH_FEATURE_FINAL_PASS */
+    HEARTH_TARGETS_BLOOM = 8,
     /* frames may use a light method that stores surfaces; with HEARTH_FEATURE_DEFERRED */
     HEARTH_TARGETS_DEFERRED = 16,
     /* the same, but only HEARTH_LIGHTS_TILE_DEFERRED without bloom, automatic exposure and another output

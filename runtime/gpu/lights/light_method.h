@@ -78,16 +78,11 @@ constexpr bool storesSurfaces(LightPath path)
     return path == LightPath::surfaces_on_tile || path == LightPath::surfaces;
 }
 
-/// True if the sums of a pixel are in one image.
-constexpr bool joinsSums(LightPath path)
-{
-    return path == LightPath::joint_sums || path == LightPath::encoded_joint_sums;
-}
-
 /// True if shading weighs sums of light.
 constexpr bool sumsLights(LightPath path)
 {
-    return path == LightPath::light_sums || joinsSums(path);
+    return path == LightPath::light_sums || path == LightPath::joint_sums ||
+           path == LightPath::encoded_joint_sums;
 }
 
 /// Output of shading: frames of each have pipelines of their own.
