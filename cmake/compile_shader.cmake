@@ -4,7 +4,7 @@
 #   GLSLC SPIRV_VAL SPIRV_OPT  programs; TOOLS  their versions
 #   INCLUDE                    folder of include paths
 
-set(compile ${GLSLC} -Werror -O -g --target-env=vulkan1.1 -I ${INCLUDE} ${MACRO})
+set(compile ${GLSLC} -Werror -g --target-env=vulkan1.1 -I ${INCLUDE} ${MACRO})
 
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status)
@@ -23,7 +23,8 @@ endfunction()
 set(text ${OUTPUT}.text)
 run(${compile} -E -MD -MF ${OUTPUT}.d -MT ${OUTPUT} ${SHADER} -o ${text})
 file(SHA256 ${text} key)
-string(SHA256 key "${key} ${compile} ${TOOLS}")
+file(SHA256 ${CMAKE_CURRENT_LIST_FILE} script)
+string(SHA256 key "${key} ${script} ${MACRO} ${TOOLS}")
 file(REMOVE ${text})
 set(kept ${CACHE}/${key})
 if(CACHE AND EXISTS ${kept}.spv AND EXISTS ${kept}.inc)
@@ -32,13 +33,15 @@ if(CACHE AND EXISTS ${kept}.spv AND EXISTS ${kept}.inc)
   return()
 endif()
 
-run(${compile} ${SHADER} -o ${OUTPUT}.spv)
+# the passes of glslc -O, which takes half as long again with names
+run(${compile} ${SHADER} -o ${OUTPUT}.named)
+run(${SPIRV_OPT} -O ${OUTPUT}.named -o ${OUTPUT}.spv)
 run(${SPIRV_VAL} --target-env vulkan1.1 ${OUTPUT}.spv)
 run(${SPIRV_OPT} --strip-debug --compact-ids ${OUTPUT}.spv -o ${OUTPUT}.stripped)
 file(READ ${OUTPUT}.stripped bytes HEX)
 string(REGEX REPLACE "(..)(..)(..)(..)" "0x\\4\\3\\2\\1," words "${bytes}")
 file(WRITE ${OUTPUT} "${words}\n")
-file(REMOVE ${OUTPUT}.stripped)
+file(REMOVE ${OUTPUT}.named ${OUTPUT}.stripped)
 if(CACHE)
   file(MAKE_DIRECTORY ${CACHE})
   put(${OUTPUT}.spv ${kept}.spv)

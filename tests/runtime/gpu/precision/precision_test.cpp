@@ -4,6 +4,7 @@
 #include "runtime/gpu/frame/frame_description.h"
 #include "tests/runtime/gpu/precision/relaxed_precision.h"
 #include "tests/runtime/shaders/shader_list.h"
+#include "tests/support/sanitized.h"
 
 #include <gmock/gmock.h>
 #include <map>
@@ -91,6 +92,13 @@ bool readsTexels(const std::string& name)
     return name != "surfaces_sky_frag" && (!adds_lights || name.find("_shadowed") != std::string::npos);
 }
 
+/// True if a shader is rewritten to see that a test can fail: a sanitizer takes long for all ways through a
+/// frame.
+bool isRewritten(const std::string& name)
+{
+    return !kSanitized || baseName(name) == name;
+}
+
 double relaxedShare(std::span<const uint32_t> words)
 {
     const PrecisionCounts counts = countPrecisions(words);
@@ -110,7 +118,10 @@ TEST(PrecisionTest, shadingIsRelaxed)
                         relaxedShare(shader.words));
             EXPECT_GE(relaxedShare(shader.words), share->second) << shader.name;
             EXPECT_LT(relaxedShare(shader.words), 100) << shader.name;
-            EXPECT_DOUBLE_EQ(relaxedShare(relaxEverything(shader.words)), 100) << shader.name;
+            if (isRewritten(shader.name))
+            {
+                EXPECT_DOUBLE_EQ(relaxedShare(relaxEverything(shader.words)), 100) << shader.name;
+            }
             ++found;
         }
     EXPECT_EQ(found, std::size(gpu::kFrameWays) * relaxedShares().size()) << "of all ways through a frame";
@@ -138,7 +149,7 @@ TEST(PrecisionTest, placesInTexturesAreFull)
             continue;
         EXPECT_THAT(findRelaxedPlaces(shader.words), IsEmpty()) << shader.name;
         const std::string name = baseName(shader.name);
-        if (relaxedShares().contains(name) && readsTexels(name))
+        if (relaxedShares().contains(name) && readsTexels(name) && isRewritten(shader.name))
         {
             EXPECT_THAT(findRelaxedPlaces(relaxEverything(shader.words)), Contains(HasSubstr("value ")))
                 << shader.name;
