@@ -105,6 +105,7 @@ protected:
         if (facts.approximates)
         {
             EXPECT_LT(meanDifference(image, expected), kMaxMean) << facts.name;
+            EXPECT_EQ(countLost(image, expected), 0u) << facts.name;
             return;
         }
         if (facts.path == gpu::LightPath::materials || facts.path == gpu::LightPath::light_bits)
@@ -127,6 +128,17 @@ protected:
         const bool rounds_each = hundreds && facts.light_list == shared::kLightListVolumes;
         EXPECT_LE(largest, rounds_each ? 8 : 2) << facts.name;
         EXPECT_TRUE(rounds_each || 1000 * off_by_two <= image.color.size()) << facts.name;
+    }
+
+    /// Return the number of pixels that are black in place of a colour.
+    static size_t countLost(const Image& image, const Image& expected)
+    {
+        const auto sum = [](uint32_t color)
+        { return channel(color, 0) + channel(color, 1) + channel(color, 2); };
+        size_t lost = 0;
+        for (size_t i = 0; i < image.color.size(); ++i)
+            lost += sum(image.color[i]) == 0 && sum(expected.color[i]) > 60 ? 1 : 0;
+        return lost;
     }
 
     /// Return how far channels are off, of 255.
