@@ -5,7 +5,7 @@
 #include "cook/textures/texel_codec.h"
 #include "formats/base/assert.h"
 #include "formats/pack/pack_view.h"
-#include "formats/records/texel_format_name.h"
+#include "formats/records/texel_format.h"
 
 #include <algorithm>
 #include <array>

@@ -40,20 +40,11 @@ constexpr bool isInsideTable(Range range, size_t size)
     return range.first <= size && range.count <= size - range.first;
 }
 
-/// Return the bytes of a texel; 0 for a format that does not exist. All formats have four channels.
+/// Return the bytes of a texel; 0 for a compressed format and for one that does not exist.
 constexpr uint32_t texelBytes(uint32_t format)
 {
-    switch (static_cast<TexelFormat>(format))
-    {
-    case TexelFormat::rgba8_srgb:
-    case TexelFormat::rgba8_unorm:
-        return 4;
-    case TexelFormat::rgba16_float:
-    case TexelFormat::rgba16_unorm:
-    case TexelFormat::rgba16_srgb:
-        return 8;
-    }
-    return 0;
+    const TexelFormatTraits* const traits = findTexelFormat(format);
+    return traits == nullptr || traits->family != TexelFamily::plain ? 0 : traits->block_bytes;
 }
 
 /// Reduce a channel of 16 bits to 8, to the nearest.
@@ -68,8 +59,8 @@ std::vector<std::byte> narrowTexels(std::span<const std::byte> texels);
 /// True if red, green and blue are coded as sRGB.
 constexpr bool isSrgb(uint32_t format)
 {
-    return format == static_cast<uint32_t>(TexelFormat::rgba8_srgb) ||
-           format == static_cast<uint32_t>(TexelFormat::rgba16_srgb);
+    const TexelFormatTraits* const traits = findTexelFormat(format);
+    return traits != nullptr && traits->coding == TexelCoding::srgb;
 }
 
 /// True if the channels are 16-bit numbers from 0 to 1.
@@ -92,12 +83,13 @@ constexpr MipExtent mipExtent(const ImageRecord& image, uint32_t mip)
 }
 
 /// Return the first byte of mip `mip` in the image's data; `mip` = mip_count gives the total size. Cannot
-/// overflow for images of at most 2^28 texels a side.
+/// overflow for images of at most 2^28 texels a side. 0 for a format that does not exist.
 constexpr uint64_t mipOffset(const ImageRecord& image, uint32_t mip)
 {
+    const TexelFormatTraits* const traits = findTexelFormat(image.format);
     uint64_t offset = 0;
-    for (uint32_t i = 0; i < mip && i < 32; ++i)
-        offset += uint64_t{mipExtent(image, i).width} * mipExtent(image, i).height * texelBytes(image.format);
+    for (uint32_t i = 0; traits != nullptr && i < mip && i < 32; ++i)
+        offset += mipBytes(*traits, mipExtent(image, i).width, mipExtent(image, i).height);
     return offset;
 }
 

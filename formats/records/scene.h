@@ -6,6 +6,7 @@
 
 #include "formats/gpu_shared/record_values.h"
 #include "formats/records/container.h"
+#include "formats/records/texel_format.h"
 
 #include <bit>
 
@@ -169,15 +170,6 @@ struct MaterialRecord
     TextureRef normal_texture;
     TextureRef occlusion_texture;
     TextureRef emissive_texture;
-};
-
-enum class TexelFormat : uint32_t
-{
-    rgba8_srgb = 0,  ///< colour; alpha linear
-    rgba8_unorm = 1, ///< data
-    rgba16_float = 2,
-    rgba16_unorm = 3, ///< data of a source with 16 bits
-    rgba16_srgb = 4,  ///< parts only: colour of a source with 16 bits; packs have rgba8_srgb
 };
 
 enum ImageFlags : uint32_t

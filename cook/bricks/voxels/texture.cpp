@@ -123,17 +123,10 @@ Float4 Texture::texel(const Texels& texels, uint64_t index) const
 {
     const auto byte = [&](size_t i) { return std::to_integer<uint8_t>(texels[index * 4 + i]); };
     const auto unorm = [&](size_t i) { return static_cast<float>(byte(i)) / 255.0f; };
-    switch (static_cast<TexelFormat>(record_.format))
-    {
-    case TexelFormat::rgba8_srgb:
+    if (record_.format == static_cast<uint32_t>(TexelFormat::rgba8_srgb))
         return {linearFromSrgb()[byte(0)], linearFromSrgb()[byte(1)], linearFromSrgb()[byte(2)], unorm(3)};
-    case TexelFormat::rgba8_unorm:
+    if (record_.format == static_cast<uint32_t>(TexelFormat::rgba8_unorm))
         return {unorm(0), unorm(1), unorm(2), unorm(3)};
-    case TexelFormat::rgba16_float:
-    case TexelFormat::rgba16_unorm:
-    case TexelFormat::rgba16_srgb: // in import parts, which have no mips to look up
-        break;
-    }
     uint16_t words[4];
     std::memcpy(words, texels.data() + index * sizeof(words), sizeof(words));
     const auto decode = isUnorm16(record_.format) ? unorm16 : floatFromHalf;

@@ -2,7 +2,7 @@
 #include "cook/json/json.h"
 #include "pipelines/command/inspect/inspect.h"
 
-#include "formats/records/texel_format_name.h"
+#include "formats/records/texel_format.h"
 
 namespace hearth::command
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/records/texel_format_name.h"
+#include "formats/records/texel_format.h"
 #include "pipelines/command/inspect/inspect.h"
 #include "pipelines/command/shell/terminal.h"
 

@@ -6,7 +6,7 @@
 #include "formats/codecs/channel_keys.h"
 #include "formats/pack/image_uses.h"
 #include "formats/records/animation_paths.h"
-#include "formats/records/texel_format_name.h"
+#include "formats/records/texel_format.h"
 #include "pipelines/command/inspect/inspect.h"
 
 #include <fmt/format.h>

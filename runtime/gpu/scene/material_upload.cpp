@@ -15,22 +15,10 @@ namespace hearth::gpu
 namespace
 {
 
+/// Return the format of an image that checkPack has passed.
 VkFormat imageFormat(uint32_t format)
 {
-    switch (static_cast<formats::TexelFormat>(format))
-    {
-    case formats::TexelFormat::rgba8_srgb:
-        return VK_FORMAT_R8G8B8A8_SRGB;
-    case formats::TexelFormat::rgba8_unorm:
-        return VK_FORMAT_R8G8B8A8_UNORM;
-    case formats::TexelFormat::rgba16_float:
-        return VK_FORMAT_R16G16B16A16_SFLOAT;
-    case formats::TexelFormat::rgba16_unorm:
-        return VK_FORMAT_R16G16B16A16_UNORM;
-    case formats::TexelFormat::rgba16_srgb:
-        break; // in parts only
-    }
-    return VK_FORMAT_UNDEFINED;
+    return static_cast<VkFormat>(formats::findTexelFormat(format)->vulkan_format);
 }
 
 constexpr VkImageUsageFlags kTextureUsage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;

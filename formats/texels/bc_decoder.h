@@ -1,0 +1,23 @@
+// Decodes BC1 to BC7.
+// Source: Khronos Data Format Specification 1.3, chapters 18 to 20.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/records/texel_format.h"
+#include "formats/texels/decoded_texel.h"
+
+#include <cstddef>
+#include <span>
+
+namespace hearth::formats
+{
+
+/// Decode a block of any bytes; blocks with a reserved mode are 0.
+///
+/// traits  family bc
+/// block   traits.block_bytes
+/// texels  4 x 4, rows from top to bottom
+void decodeBcBlock(const TexelFormatTraits& traits, std::span<const std::byte> block,
+                   std::span<DecodedTexel, 16> texels);
+
+} // namespace hearth::formats
