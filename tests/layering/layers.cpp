@@ -236,6 +236,9 @@ const std::vector<Library>& libraries()
         {"gmock/", {}, true},
         {"benchmark/", {}, true},
         {"CGAL/", {}},             // checks distances, in tests
+        {"EGL/", {}},              // with the next two: decodes ETC2 as an oracle, in tests
+        {"GLES2/", {}},
+        {"GLES3/", {}},
         {"OpenMesh/", {}},         // counts boundary loops, in tests
         {"spirv_cross/", {}},      // reflects shaders, in tests
         {"tiny_gltf.h", {}, true}, // reads glTF as an oracle, in tests
