@@ -9,6 +9,7 @@ namespace hearth::shaders
 {
 
 extern const std::span<const uint32_t> brick_march_comp;
+extern const std::span<const uint32_t> fetch_texels_comp;
 extern const std::span<const uint32_t> forward_vert;
 extern const std::span<const uint32_t> forward_frag;
 extern const std::span<const uint32_t> uv_derivatives_frag;
