@@ -38,7 +38,7 @@ struct Value
 {
     std::string_view name;
     uint32_t value;
-    std::string_view meaning;
+    std::string meaning;
 };
 
 struct ValueTable
@@ -50,7 +50,7 @@ struct ValueTable
 template <typename T>
 Value value(std::string_view name, T number, std::string_view meaning = "")
 {
-    return {name, static_cast<uint32_t>(number), meaning};
+    return {name, static_cast<uint32_t>(number), std::string(meaning)};
 }
 
 std::vector<Value> listExtrasOwners()
@@ -69,6 +69,23 @@ std::vector<Value> listAnimationPaths()
     std::vector<Value> values;
     for (const AnimationPathInfo& info : kAnimationPaths)
         values.push_back(value(info.name, info.path, info.meaning));
+    return values;
+}
+
+std::vector<Value> listTexelFormats()
+{
+    std::vector<Value> values;
+    for (uint32_t format = 0; format < kTexelFormatEnd; ++format)
+        if (const TexelFormatTraits* const traits = findTexelFormat(format))
+        {
+            std::string meaning = std::to_string(traits->block_bytes) + " bytes";
+            if (traits->family != TexelFamily::plain)
+                meaning += " for " + std::to_string(traits->block_width) + " x " +
+                           std::to_string(traits->block_height) + " texels";
+            if (!isPackFormat(format))
+                meaning += isFileFormat(traits->format) ? "; texture files only" : "; parts only";
+            values.push_back({traits->name, format, meaning});
+        }
     return values;
 }
 
@@ -94,13 +111,17 @@ std::vector<ValueTable> valueTables()
         {"MaterialFlags",
          {value("double-sided", kMaterialDoubleSided),
           value("unlit", kMaterialUnlit, "KHR_materials_unlit")}},
-        {"TexelFormat",
-         {value("rgba8_srgb", TexelFormat::rgba8_srgb, "4 bytes; colour, alpha linear"),
-          value("rgba8_unorm", TexelFormat::rgba8_unorm, "4 bytes; data"),
-          value("rgba16_float", TexelFormat::rgba16_float, "8 bytes; linear"),
-          value("rgba16_unorm", TexelFormat::rgba16_unorm, "8 bytes; data of a source with 16 bits"),
-          value("rgba16_srgb", TexelFormat::rgba16_srgb,
-                "8 bytes; parts only: colour of a source with 16 bits, alpha linear")}},
+        {"TexelFormat", listTexelFormats()},
+        {"ImageRole",
+         {value("none", ImageRole::none, "parts of import only"), value("color", ImageRole::color),
+          value("cutout", ImageRole::cutout, "alpha is the opacity"), value("emissive", ImageRole::emissive),
+          value("data", ImageRole::data),
+          value("normal", ImageRole::normal, "x and y; z is the rest of a unit vector"),
+          value("light", ImageRole::light)}},
+        {"Swizzle",
+         {value("identity", Swizzle::identity), value("zero", Swizzle::zero), value("one", Swizzle::one),
+          value("red", Swizzle::red), value("green", Swizzle::green), value("blue", Swizzle::blue),
+          value("alpha", Swizzle::alpha)}},
         {"ImageFlags",
          {value("placeholder", kImagePlaceholder, "stands for an image that could not be read"),
           value("normal map", kImageNormalMap, "mips are averaged as directions"),

@@ -34,6 +34,24 @@ void encodeMip(Content content, uint32_t format, const FloatImage& mip, float al
                       });
 }
 
+/// Make the normals of the finest mip unit. Maps that were resized or compressed have lengths of .85 to 1.15,
+/// and x and y alone, which is what shaders read, would then be off by degrees.
+void makeUnit(const ImageRecord& image, std::span<std::byte> texels)
+{
+    const size_t row_bytes = texels.size() / image.height;
+    tbb::parallel_for(tbb::blocked_range<uint32_t>(0, image.height),
+                      [&](const tbb::blocked_range<uint32_t>& rows)
+                      {
+                          std::vector<Float4> normals(image.width);
+                          for (uint32_t y = rows.begin(); y < rows.end(); ++y)
+                          {
+                              const std::span<std::byte> row = texels.subspan(y * row_bytes, row_bytes);
+                              decodeRow(Content::normals, image.format, row, normals);
+                              encodeRow(Content::normals, image.format, normals, 1, row);
+                          }
+                      });
+}
+
 /// True if mips must keep the share of texels that pass the alpha test.
 bool keepsCoverage(const ImageRecord& image)
 {
@@ -59,6 +77,8 @@ std::vector<std::byte> buildMipChain(const ImageRecord& image, std::vector<std::
     const bool is_narrowed = chain.format != image.format;
     std::vector<std::byte> mips = is_narrowed ? formats::narrowTexels(texels) : std::move(texels);
     const double coverage = keepsCoverage(chain) ? alphaCoverage(mips, image.alpha_cutoff) : 0;
+    if (content == Content::normals)
+        makeUnit(chain, mips);
     mips.resize(static_cast<size_t>(formats::mipOffset(chain, chain.mip_count)));
     const std::span<const std::byte> source = is_narrowed ? texels : mips;
 

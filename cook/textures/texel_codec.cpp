@@ -5,6 +5,7 @@
 #include "formats/base/half.h"
 #include "formats/pack/pack_view.h"
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <limits>
@@ -49,13 +50,15 @@ Texel<T> readTexel(std::span<const std::byte> row, size_t i)
     return texel;
 }
 
-/// Decode a normal: 0 to the largest number means -1 to 1, as in glTF.
+/// Decode a normal: 0 to the largest number means -1 to 1, as in glTF. It is on the front side of the surface,
+/// and unit: z is made of x and y later.
 template <typename T>
 Float3 decodeNormal(const Texel<T>& texel)
 {
     constexpr float kHalf = static_cast<float>(std::numeric_limits<T>::max()) / 2;
     const auto component = [](T value) { return static_cast<float>(value) / kHalf - 1; };
-    return normalizeOr({component(texel[0]), component(texel[1]), component(texel[2])}, {0, 0, 1});
+    return normalizeOr({component(texel[0]), component(texel[1]), std::max(component(texel[2]), 0.0f)},
+                       {0, 0, 1});
 }
 
 /// srgb  SrgbTables for 8 bits, WideSrgbTable for 16

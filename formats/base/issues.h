@@ -85,6 +85,8 @@ enum class IssueClass : uint8_t
       "save the layer that is meant as an image of its own")                                                 \
     X(image_depth, 1306, warning, "an image has more bits than are kept of it",                              \
       "colours need 8 bits; save light as EXR or HDR")                                                       \
+    X(texture_target, 1307, warning, "no compressed format keeps a texture's error below its target",        \
+      "set textures.strict to keep it plain, or a lower textures.quality")                                   \
     X(dropped, 1400, warning, "a part of the source is not kept", "")                                        \
     X(degraded, 1401, warning, "a part of the source is drawn in a simpler way", "")                         \
     X(repaired, 1402, warning, "a part of the source was repaired", "")                                      \
@@ -162,6 +164,8 @@ enum class IssueClass : uint8_t
       "raise the budget to what the message says")                                                           \
     X(no_display, 4007, internal, "there is no display to open a window on",                                 \
       "set DISPLAY or WAYLAND_DISPLAY to a display that runs, or draw into a file with hearth-render")       \
+    X(texture_format, 4008, internal, "a texture has a format that the graphics device cannot sample",       \
+      "cook with textures.families for the device, or let the loader decode textures")                       \
     X(cache_failed, 4100, warning, "a cache cannot be used as it should; the cook goes on without it",       \
       "check the folder or the server, its rights and the space left")                                       \
     X(plan_syntax, 5000, malformed, "a plan is not valid", "make it again with hearth plan")                 \

@@ -70,10 +70,10 @@ inline bool isNoneOrBelow(uint32_t index, size_t size)
     return index == kInvalidIndex || index < size;
 }
 
-template <size_t N>
-bool reservedZero(const uint32_t (&words)[N])
+template <typename T, size_t N>
+bool reservedZero(const T (&words)[N])
 {
-    return std::all_of(std::begin(words), std::end(words), [](uint32_t word) { return word == 0; });
+    return std::all_of(std::begin(words), std::end(words), [](T word) { return word == 0; });
 }
 
 /// RangeCursor over a table. The records of another table must claim its records as consecutive ranges.

@@ -74,6 +74,23 @@ Status checkLayers(const PackView& view, size_t i)
     return checkTexture(view, table, i, "sheen_texture", m.sheen_texture);
 }
 
+/// Check the fields that encoding fills.
+Status checkEncoding(const PackView& view, uint32_t i)
+{
+    const ImageRecord& image = view.images()[i];
+    if (image.role > static_cast<uint8_t>(ImageRole::light))
+        return makeError(view, Issue::meaning_value, "image", i, "role " + std::to_string(image.role));
+    for (const uint8_t source : image.swizzle)
+        if (source > static_cast<uint8_t>(Swizzle::alpha))
+            return makeError(view, Issue::meaning_value, "image", i, "swizzle " + std::to_string(source));
+    if (!isNonNegative(image.error) || !isNonNegative(image.error_p999) ||
+        !isNonNegative(image.error_smooth) || !inside(image.coverage_error, 0, 1))
+        return makeError(view, Issue::meaning_value, "image", i, "an error is negative or not finite");
+    if (!reservedZero(image.reserved_bytes) || !reservedZero(image.reserved))
+        return makeError(view, Issue::meaning_padding, "image", i, "a reserved field is not 0");
+    return success();
+}
+
 Status checkImage(const PackView& view, uint32_t i, BulkData bulk)
 {
     const ImageRecord& image = view.images()[i];
@@ -83,13 +100,14 @@ Status checkImage(const PackView& view, uint32_t i, BulkData bulk)
     const auto full_chain = static_cast<uint32_t>(std::bit_width(std::max(image.width, image.height)));
     if (image.mip_count < 1 || image.mip_count > full_chain)
         return makeError(view, Issue::meaning_value, "image", i, std::to_string(image.mip_count) + " mips");
-    if (texelBytes(image.format) == 0 || image.format == static_cast<uint32_t>(TexelFormat::rgba16_srgb))
+    if (!isPackFormat(image.format))
         return makeError(view, Issue::meaning_value, "image", i, "format " + std::to_string(image.format));
     if ((image.flags & ~uint32_t{kImagePlaceholder | kImageNormalMap | kImageAlphaTested}) != 0)
         return makeError(view, Issue::meaning_value, "image", i, "flags " + std::to_string(image.flags));
     if (!isNonNegative(image.alpha_cutoff))
         return makeError(view, Issue::meaning_value, "image", i,
                          "its alpha cutoff is negative or not finite");
+    HEARTH_TRY(checkEncoding(view, i));
 
     const ChunkEntry* data = view.container().find(kChunkImageData, i);
     if (data == nullptr)

@@ -63,7 +63,7 @@ inline constexpr std::array kChunkList{
     makeTableInfo<MaterialRecord>(kChunkMaterials, 1, ChunkPurpose::scene, "metallic-roughness materials"),
     makeTableInfo<MaterialLayersRecord>(kChunkMaterialLayers, 1, ChunkPurpose::scene,
                                         "reflectance, clear coat and sheen of materials that have them"),
-    makeTableInfo<ImageRecord>(kChunkImages, 1, ChunkPurpose::textures, "images"),
+    makeTableInfo<ImageRecord>(kChunkImages, 2, ChunkPurpose::textures, "images"),
     ChunkInfo{kChunkImageData, 1, ChunkPurpose::textures, "texels", true,
               "one for each image: all mips, finest first"},
     makeTableInfo<SkinRecord>(kChunkSkins, 1, ChunkPurpose::animation, "skins"),

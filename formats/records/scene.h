@@ -179,7 +179,37 @@ enum ImageFlags : uint32_t
     kImageAlphaTested = 4, ///< mips keep the covered area at the alpha cutoff
 };
 
-/// Image. Rows top to bottom, tightly packed. Mip i is max(1, size >> i), each mip follows the finer one.
+/// Textures of a material.
+inline constexpr TextureRef MaterialRecord::*kMaterialTextureFields[] = {
+    &MaterialRecord::base_color_texture, &MaterialRecord::metallic_roughness_texture,
+    &MaterialRecord::normal_texture, &MaterialRecord::occlusion_texture, &MaterialRecord::emissive_texture};
+
+/// Use of an image by materials, which decides how its loss is measured.
+enum class ImageRole : uint8_t
+{
+    none = 0,     ///< parts of import only
+    color = 1,    ///< sRGB colour; alpha, if it is read, is another number
+    cutout = 2,   ///< sRGB colour of which alpha is the opacity
+    emissive = 3, ///< sRGB colour of light
+    data = 4,     ///< independent numbers: occlusion, roughness, metalness
+    normal = 5,   ///< x and y of directions
+    light = 6,    ///< linear light without an upper limit
+};
+
+/// Source of a channel that a shader reads. Values are those of VkComponentSwizzle.
+enum class Swizzle : uint8_t
+{
+    identity = 0, ///< the stored channel of the same name
+    zero = 1,
+    one = 2,
+    red = 3,
+    green = 4,
+    blue = 5,
+    alpha = 6,
+};
+
+/// Image. Mip i is max(1, size >> i), each mip follows the finer one. Rows of blocks from top to bottom,
+/// tightly packed; blocks that reach over the edge are whole.
 struct ImageRecord
 {
     StringRef name;
@@ -189,6 +219,14 @@ struct ImageRecord
     uint32_t format;
     uint32_t flags;
     float alpha_cutoff;
+    uint8_t role;
+    uint8_t reserved_bytes[3];
+    uint8_t swizzle[4];
+    float error;
+    float error_p999;
+    float error_smooth;
+    float coverage_error;
+    uint32_t reserved[2];
 };
 
 struct SkinRecord
@@ -340,16 +378,29 @@ HEARTH_RECORD(
     HEARTH_FIELD(hearth::formats::MaterialRecord, normal_texture, "tangent space, +Y up"),
     HEARTH_FIELD(hearth::formats::MaterialRecord, occlusion_texture, "R"),
     HEARTH_FIELD(hearth::formats::MaterialRecord, emissive_texture, ""));
-HEARTH_RECORD(hearth::formats::ImageRecord, 32,
-              HEARTH_FIELD(hearth::formats::ImageRecord, name, "file name or name in the source"),
-              HEARTH_FIELD(hearth::formats::ImageRecord, width, "texels"),
-              HEARTH_FIELD(hearth::formats::ImageRecord, height, "texels"),
-              HEARTH_FIELD(hearth::formats::ImageRecord, mip_count, ""),
-              HEARTH_FIELD(hearth::formats::ImageRecord, format,
-                           "0 RGBA8 sRGB, 1 RGBA8 unorm, 2 RGBA16 float, 3 RGBA16 unorm, 4 RGBA16 sRGB"),
-              HEARTH_FIELD(hearth::formats::ImageRecord, flags,
-                           "1 placeholder, 2 normal map, 4 alpha-tested"),
-              HEARTH_FIELD(hearth::formats::ImageRecord, alpha_cutoff, "that the mips keep the coverage of"));
+HEARTH_RECORD(
+    hearth::formats::ImageRecord, 64,
+    HEARTH_FIELD(hearth::formats::ImageRecord, name, "file name or name in the source"),
+    HEARTH_FIELD(hearth::formats::ImageRecord, width, "texels"),
+    HEARTH_FIELD(hearth::formats::ImageRecord, height, "texels"),
+    HEARTH_FIELD(hearth::formats::ImageRecord, mip_count, ""),
+    HEARTH_FIELD(hearth::formats::ImageRecord, format, "as in the table of texel formats"),
+    HEARTH_FIELD(hearth::formats::ImageRecord, flags, "1 placeholder, 2 normal map, 4 alpha-tested"),
+    HEARTH_FIELD(hearth::formats::ImageRecord, alpha_cutoff, "that the mips keep the coverage of"),
+    HEARTH_FIELD(hearth::formats::ImageRecord, role,
+                 "0 none, 1 color, 2 cutout, 3 emissive, 4 data, 5 normal, 6 light"),
+    HEARTH_FIELD(hearth::formats::ImageRecord, reserved_bytes, "0"),
+    HEARTH_FIELD(hearth::formats::ImageRecord, swizzle,
+                 "source of red to alpha: 0 the same channel, 1 zero, 2 one, 3 to 6 stored red to alpha"),
+    HEARTH_FIELD(hearth::formats::ImageRecord, error,
+                 "RMS loss of encoding over mips 0 to 3: share of the range; normals: radians; light: stops"),
+    HEARTH_FIELD(hearth::formats::ImageRecord, error_p999,
+                 "loss that 99.9 % of the texels of mip 0 do not exceed"),
+    HEARTH_FIELD(hearth::formats::ImageRecord, error_smooth,
+                 "as error, of texels in cells of 4 x 4 that span 4 of 255 codes at most; 0: there are few"),
+    HEARTH_FIELD(hearth::formats::ImageRecord, coverage_error,
+                 "largest change of the share of texels that pass the alpha test, of a mip of 0 to 3"),
+    HEARTH_FIELD(hearth::formats::ImageRecord, reserved, "0"));
 HEARTH_RECORD(hearth::formats::SkinRecord, 24,
               HEARTH_FIELD(hearth::formats::SkinRecord, name, "may be empty"),
               HEARTH_FIELD(hearth::formats::SkinRecord, skeleton_root, "node, or none"),

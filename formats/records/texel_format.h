@@ -84,8 +84,18 @@ struct TexelFormatTraits
     uint32_t vulkan_format; ///< number of the VkFormat
 };
 
+/// Values of TexelFormat are less.
+inline constexpr uint32_t kTexelFormatEnd = 96;
+
 /// Number of ASTC's two-dimensional footprints.
 inline constexpr uint32_t kAstcFootprints = 14;
+
+/// True if the format is only read from texture files.
+constexpr bool isFileFormat(TexelFormat format)
+{
+    return (format >= TexelFormat::etc2_rgb8a1_unorm && format <= TexelFormat::eac_rg11_snorm) ||
+           format >= TexelFormat::bc1_rgba_unorm;
+}
 
 /// Return the format of ASTC with a footprint.
 /// first      astc_unorm, astc_srgb or astc_float
@@ -153,7 +163,7 @@ inline constexpr TexelFormatTraits kTexelFormats[] = {
 /// [value of a TexelFormat]: row of kTexelFormats + 1; 0: there is no such format.
 inline constexpr auto kTexelFormatRows = []
 {
-    std::array<uint8_t, 96> rows{};
+    std::array<uint8_t, kTexelFormatEnd> rows{};
     uint8_t row = 0;
     for (const TexelFormatTraits& traits : kTexelFormats)
         rows[static_cast<uint32_t>(traits.format)] = ++row;
@@ -168,6 +178,13 @@ constexpr const TexelFormatTraits* findTexelFormat(uint32_t format)
     if (format >= detail::kTexelFormatRows.size() || detail::kTexelFormatRows[format] == 0)
         return nullptr;
     return &detail::kTexelFormats[detail::kTexelFormatRows[format] - 1];
+}
+
+/// True if a pack may have images of the format.
+constexpr bool isPackFormat(uint32_t format)
+{
+    const TexelFormatTraits* const traits = findTexelFormat(format);
+    return traits != nullptr && traits->format != TexelFormat::rgba16_srgb && !isFileFormat(traits->format);
 }
 
 /// Return the traits of a format that exists (contract of the caller).

@@ -265,6 +265,11 @@ typedef struct hearth_shadow_options
         0, 1024, 1, 4, 1, 2, 0.1f, 100, 0.8f, 0.05f, 32                                                      \
     }
 
+/* Flags of a scene. */
+/* Textures of compressed formats that the device cannot sample are decoded, which takes four times the memory
+ * or more, and the time of a load; else they are an error. */
+#define HEARTH_SCENE_DECODE_TEXTURES 1u
+
 typedef struct hearth_scene_options
 {
     uint32_t struct_size;
@@ -289,7 +294,7 @@ typedef struct hearth_scene_options
     /* since 1.8: slots of lights, up to 4096: the pack's lights, and behind them those of the game
      * (hearth_light_change); at least as many as the pack has */
     uint32_t max_lights;
-    uint32_t reserved; /* 0 */
+    uint32_t flags; /* HEARTH_SCENE_* */
 } hearth_scene_options;
 
 #define HEARTH_SCENE_OPTIONS_INIT                                                                            \
@@ -315,7 +320,7 @@ typedef struct hearth_scene_info
     uint32_t struct_size;
     uint32_t instance_count;
     uint32_t dropped_lights; /* lights beyond the capacity, not drawn */
-    uint32_t reserved;       /* 0 */
+    uint32_t decoded_textures; /* textures of formats that the device lacks */
     /* Bounds of the instances as loaded; box_min is above box_max if there is nothing to draw. */
     float box_min[3];
     float box_max[3];

@@ -38,8 +38,10 @@ Status check(const hearth_scene_options* options)
         return usage("max_visible_clusters is not from 1 to " + std::to_string(shared::kMaxSlots));
     if (options->frames_in_flight < 1 || options->frames_in_flight > gpu::kMaxFramesInFlight)
         return usage("frames_in_flight is not from 1 to " + std::to_string(gpu::kMaxFramesInFlight));
-    if (options->max_lights > shared::kMaxLights || options->reserved != 0)
-        return usage("max_lights is above " + std::to_string(shared::kMaxLights) + ", or reserved is not 0");
+    if (options->max_lights > shared::kMaxLights ||
+        (options->flags & ~uint32_t{HEARTH_SCENE_DECODE_TEXTURES}) != 0)
+        return usage("max_lights is above " + std::to_string(shared::kMaxLights) +
+                     ", or flags have a bit that does not exist");
     if (options->geometry_budget == 0)
         return success();
     if (options->read == nullptr)
@@ -61,6 +63,7 @@ Result<gpu::SceneOptions> toOptions(const hearth_scene_options& options)
                          .max_loads = options.max_loads};
     result.deformation.scratch_bytes = options.skinning_bytes;
     result.max_lights = options.max_lights;
+    result.decode_textures = (options.flags & HEARTH_SCENE_DECODE_TEXTURES) != 0;
     HEARTH_ASSIGN_OR_RETURN(result.shadows, shadowOptions(options.shadows));
     return result;
 }
@@ -172,7 +175,7 @@ hearth_result hearth_scene_get_info(const hearth_scene* scene, hearth_scene_info
                     *info = {.struct_size = sizeof(*info),
                              .instance_count = scene->scene->instance_count,
                              .dropped_lights = scene->scene->dropped_lights,
-                             .reserved = 0,
+                             .decoded_textures = scene->scene->decoded_textures,
                              .box_min = {box.min.x, box.min.y, box.min.z},
                              .box_max = {box.max.x, box.max.y, box.max.z},
                              .allocated_bytes = allocatedBytes(*scene->scene)};

@@ -220,7 +220,7 @@ const std::vector<Library>& libraries()
         {"OpenEXR/", {"pipelines/import/", "runtime/viewer/"}},
         {"stb/", {"runtime/viewer/"}}, // writes PNG
         {"draco/", {"pipelines/import/"}},
-        {"astcenc.h", {"cook/specular/"}},
+        {"astcenc.h", {"cook/specular/", "cook/texels/"}},
         {"meshoptimizer.h", {"pipelines/import/gltf/document/"}},
         {"nlohmann/", {"cook/json/"}},
         {"fmt/", {"cook/", "pipelines/", "sample_assets/"}},

@@ -425,11 +425,22 @@ void addMaterials(PackModel& pack)
     layers.clearcoat_texture = texture(0);
     pack.material_layers.push_back(layers);
 
-    pack.images.push_back({intern(pack, "paint.png"), 4, 2, 3, static_cast<uint32_t>(TexelFormat::rgba8_srgb),
-                           kImageAlphaTested, 0.5f});
+    ImageRecord paint{};
+    paint.name = intern(pack, "paint.png");
+    paint.width = 4;
+    paint.height = 2;
+    paint.mip_count = 3;
+    paint.format = static_cast<uint32_t>(TexelFormat::rgba8_srgb);
+    paint.flags = kImageAlphaTested;
+    paint.alpha_cutoff = 0.5f;
+    pack.images.push_back(paint);
     pack.image_data.emplace_back((8 + 2 + 1) * 4, std::byte{0x7F});
-    pack.images.push_back(
-        {intern(pack, "glow.exr"), 2, 2, 1, static_cast<uint32_t>(TexelFormat::rgba16_float), 0, 0});
+    ImageRecord glow{};
+    glow.name = intern(pack, "glow.exr");
+    glow.width = glow.height = 2;
+    glow.mip_count = 1;
+    glow.format = static_cast<uint32_t>(TexelFormat::rgba16_float);
+    pack.images.push_back(glow);
     pack.image_data.emplace_back(4 * 8, std::byte{0x3C});
 }
 

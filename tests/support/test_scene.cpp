@@ -114,7 +114,11 @@ uint32_t TestScene::addMaterial(const MaterialRecord& material)
 uint32_t TestScene::addImage(TexelFormat format, uint32_t width, uint32_t height,
                              const std::vector<uint32_t>& texels)
 {
-    ImageRecord image{{}, width, height, 1, static_cast<uint32_t>(format), 0, 0};
+    ImageRecord image{};
+    image.width = width;
+    image.height = height;
+    image.mip_count = 1;
+    image.format = static_cast<uint32_t>(format);
     while (mipOffset(image, image.mip_count) < texels.size() * 4)
         ++image.mip_count;
     model_.images.push_back(image);

@@ -163,10 +163,40 @@ TEST(MipChain, normalsKeepSixteenBits)
     std::vector<std::byte> texels(16);
     std::memcpy(texels.data(), channels.data(), 16);
     const std::vector<std::byte> chain = buildMipChain(image, texels);
-    EXPECT_TRUE(std::equal(texels.begin(), texels.end(), chain.begin()));
+    for (size_t i = 0; i < channels.size(); ++i)
+        EXPECT_NEAR(wideChannel(chain, i), channels[i], 1);
     EXPECT_NEAR(wideChannel(chain, 8), 33018, 1);
     EXPECT_NEAR(wideChannel(chain, 9), 32768, 1);
     EXPECT_NEAR(wideChannel(chain, 10), 65534, 1);
+}
+
+TEST(MipChain, normalsOfAnyLengthBecomeTheSame)
+{
+    ImageRecord image = makeRecord(2, 1, TexelFormat::rgba16_unorm, formats::kImageNormalMap);
+    image.mip_count = 2;
+    const double direction[] = {0.48, -0.36, 0.8};
+    for (const double length : {0.7, 0.9, 1.0, 1.1, 1.2})
+    {
+        std::array<uint16_t, 8> channels;
+        for (size_t i = 0; i < 8; ++i)
+            channels[i] = i % 4 == 3
+                              ? uint16_t{65535}
+                              : static_cast<uint16_t>(std::lround((direction[i % 4] * length + 1) * 32767.5));
+        std::vector<std::byte> texels(16);
+        std::memcpy(texels.data(), channels.data(), 16);
+        const std::vector<std::byte> chain = buildMipChain(image, texels);
+        for (size_t i = 0; i < 12; ++i)
+            if (i % 4 != 3)
+                EXPECT_NEAR(wideChannel(chain, i), (direction[i % 4] + 1) * 32767.5, 2) << length;
+    }
+}
+
+TEST(MipChain, normalsThatPointInwardsLieOnTheSurface)
+{
+    ImageRecord image = makeRecord(1, 1, TexelFormat::rgba8_unorm, formats::kImageNormalMap);
+    image.mip_count = 1;
+    const std::vector<std::byte> chain = buildMipChain(image, filled(1, 1, {255, 128, 0, 255}));
+    EXPECT_EQ(decodeMip(image, chain, 0)[0], (Rgba8{255, 128, 128, 255}));
 }
 
 TEST(MipChain, mipsOfColoursAreMadeFromAllSixteenBits)

@@ -2,7 +2,7 @@
 #include "cook/json/json.h"
 #include "pipelines/command/inspect/inspect.h"
 
-#include "formats/records/texel_format.h"
+#include "formats/pack/image_error.h"
 
 namespace hearth::command
 {
@@ -70,7 +70,12 @@ Json imageJson(const PackView& pack, uint32_t index)
             {"width", image.width},
             {"height", image.height},
             {"mips", image.mip_count},
-            {"format", texelFormatName(image.format)},
+            {"format", std::string(texelFormatName(image.format))},
+            {"role", std::string(imageRoleName(image.role))},
+            {"error", image.error},
+            {"error_p999", image.error_p999},
+            {"error_smooth", image.error_smooth},
+            {"coverage_error", image.coverage_error},
             {"placeholder", (image.flags & kImagePlaceholder) != 0},
             {"bytes", data == nullptr ? 0 : data->size},
             {"bytes_stored", data == nullptr ? 0 : data->stored_size}};
@@ -281,12 +286,17 @@ Json totalsJson(const PackView& pack, const PackSummary& summary)
         total.record_bytes += mesh.record_bytes;
         total.bounds_bytes += mesh.bounds_bytes;
     }
-    uint64_t image_bytes = 0;
+    uint64_t image_bytes = 0, image_gpu_bytes = 0;
     for (const ChunkEntry& entry : pack.container().chunks())
-        image_bytes += entry.type == kChunkImageData ? entry.stored_size : 0;
+        if (entry.type == kChunkImageData)
+        {
+            image_bytes += entry.stored_size;
+            image_gpu_bytes += entry.size;
+        }
     return {{"source", summary.meta.counts},
             {"meshes", pack.meshes().size()},
             {"levels", levels},
+            {"texture_gpu_bytes", image_gpu_bytes},
             {"groups", pack.groups().size()},
             {"clusters", pack.clusters().size()},
             {"pages", pack.pages().size()},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/records/texel_format.h"
+#include "formats/pack/image_error.h"
 #include "pipelines/command/inspect/inspect.h"
 #include "pipelines/command/shell/terminal.h"
 
@@ -209,6 +209,15 @@ std::string extrasText(const PackView& pack)
     return text.empty() ? text : "\n" + text;
 }
 
+/// Return the role of an encoded image, and its loss: ", color, 40.2 dB".
+std::string encodingText(const ImageRecord& image)
+{
+    const auto role = static_cast<ImageRole>(image.role);
+    return role == ImageRole::none ? ""
+                                   : fmt::format(", {}, {}", imageRoleName(image.role),
+                                                 imageErrorText(role, double{image.error}));
+}
+
 std::string imagesText(const PackView& pack)
 {
     std::string text;
@@ -217,9 +226,10 @@ std::string imagesText(const PackView& pack)
         const ImageRecord& image = pack.images()[i];
         const ChunkEntry* data = pack.container().find(kChunkImageData, i);
         text +=
-            fmt::format("image {} \"{}\": {} x {}, {} mips, {}, {}{}\n", i, printable(pack.text(image.name)),
-                        image.width, image.height, image.mip_count, texelFormatName(image.format),
-                        readableSize(data == nullptr ? 0 : data->stored_size),
+            fmt::format("image {} \"{}\": {} x {}, {} mips, {}, {} on the GPU, {} stored{}{}\n", i,
+                        printable(pack.text(image.name)), image.width, image.height, image.mip_count,
+                        texelFormatName(image.format), readableSize(data == nullptr ? 0 : data->size),
+                        readableSize(data == nullptr ? 0 : data->stored_size), encodingText(image),
                         (image.flags & kImagePlaceholder) != 0 ? ", placeholder" : "");
     }
     return text.empty() ? text : "\n" + text;

@@ -75,7 +75,7 @@ std::optional<std::string> referenceText(const PackView& pack, const Field& fiel
     if (field.name == "material")
         return recordName(pack, pack.materials(), value);
     if (field.name == "format")
-        return texelFormatName(value);
+        return std::string(texelFormatName(value));
     if (field.name == "alpha_mode")
         return alphaModeName(value);
     return std::nullopt;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/scene/scene.h"
 #include "runtime/gpu/scene/scene_shading.h"
+#include "runtime/gpu/scene/texture_upload.h"
 
 #include <algorithm>
 #include <cstring>
@@ -14,50 +15,6 @@ namespace hearth::gpu
 
 namespace
 {
-
-/// Return the format of an image that checkPack has passed.
-VkFormat imageFormat(uint32_t format)
-{
-    return static_cast<VkFormat>(formats::findTexelFormat(format)->vulkan_format);
-}
-
-constexpr VkImageUsageFlags kTextureUsage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-
-Status uploadImage(const Device& device, const formats::PackView& pack, uint32_t index, Uploader& uploader,
-                   Scene& scene)
-{
-    const formats::ImageRecord& record = pack.images()[index];
-    if (std::max(record.width, record.height) > device.limits.maxImageDimension2D)
-        return Error{Issue::device_limit, pack.name(), "image " + std::to_string(index),
-                     std::to_string(record.width) + "x" + std::to_string(record.height) +
-                         " texels, the device takes " + std::to_string(device.limits.maxImageDimension2D)};
-    HEARTH_ASSIGN_OR_RETURN(const formats::ChunkData data, pack.imageData(index));
-    const bool is_narrowed = formats::isUnorm16(record.format) && !device.samples_unorm16;
-    const auto format =
-        is_narrowed ? static_cast<uint32_t>(formats::TexelFormat::rgba8_unorm) : record.format;
-    HEARTH_ASSIGN_OR_RETURN(scene.images[index],
-                            scene.arena.createImage({.format = imageFormat(format),
-                                                     .extent = {record.width, record.height},
-                                                     .mip_count = record.mip_count,
-                                                     .usage = kTextureUsage}));
-    if (!is_narrowed)
-        return uploader.upload(scene.images[index], data.bytes(), formats::texelBytes(format));
-    warn(device, pack.name(), "image " + std::to_string(index),
-         "its 16 bits a channel are reduced to 8: the device cannot filter R16G16B16A16_UNORM");
-    return uploader.upload(scene.images[index], formats::narrowTexels(data.bytes()),
-                           formats::texelBytes(format));
-}
-
-Status uploadWhite(Uploader& uploader, Scene& scene)
-{
-    HEARTH_ASSIGN_OR_RETURN(
-        Image white, scene.arena.createImage(
-                         {.format = VK_FORMAT_R8G8B8A8_UNORM, .extent = {1, 1}, .usage = kTextureUsage}));
-    const uint32_t texel = 0xFFFFFFFFu;
-    HEARTH_TRY(uploader.upload(white, std::as_bytes(std::span(&texel, 1)), 4));
-    scene.images.push_back(std::move(white));
-    return success();
-}
 
 VkSamplerAddressMode addressMode(uint8_t wrap)
 {
@@ -148,16 +105,7 @@ Status uploadMaterials(const Device& device, const DrawLayouts& layouts, const f
 {
     const std::vector<LayeredMaterial> materials = readMaterials(pack);
 
-    scene.images.resize(pack.images().size());
-    std::vector<bool> used(pack.images().size(), false);
-    for (const LayeredMaterial& material : materials)
-        for (const formats::TextureRef& texture : materialTextures(material))
-            if (texture.image != kInvalidIndex)
-                used[texture.image] = true;
-    for (uint32_t image = 0; image < used.size(); ++image)
-        if (used[image])
-            HEARTH_TRY(uploadImage(device, pack, image, uploader, scene));
-    HEARTH_TRY(uploadWhite(uploader, scene));
+    HEARTH_TRY(uploadTextures(device, pack, materials, uploader, scene));
 
     const VkDeviceSize alignment = std::max<VkDeviceSize>(device.limits.minUniformBufferOffsetAlignment, 1);
     const auto aligned = [&](VkDeviceSize size) { return (size + alignment - 1) / alignment * alignment; };

@@ -51,6 +51,9 @@ struct SceneOptions
     DeformationOptions deformation{}; ///< for scenes with deformed meshes
 
     BrickOptions bricks{}; ///< for scenes with bricks
+
+    /// Textures of compressed formats that the device cannot sample are decoded; else they are an error.
+    bool decode_textures = false;
 };
 
 class SceneShadows;
@@ -125,6 +128,8 @@ struct Scene
     const SceneFrame& frame() const { return frames[tables->frame]; }
     /// Per image of the pack, empty if no material uses it; then one white texel.
     std::vector<Image> images;
+    bool decodes_textures = false; ///< as SceneOptions::decode_textures
+    uint32_t decoded_textures = 0; ///< images that were decoded, since the device lacks their formats
     std::vector<UniqueSampler> samplers;
     UniqueDescriptorPool pool;
     std::vector<SceneMaterial> materials;    ///< rows of the material table

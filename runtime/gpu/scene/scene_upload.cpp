@@ -393,6 +393,7 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
     scene->instance_count = static_cast<uint32_t>(pack.instances().size());
     scene->item_count = static_cast<uint32_t>(layout.items.size());
     scene->group_item_count = static_cast<uint32_t>(group_items.items.size());
+    scene->decodes_textures = options.decode_textures;
     scene->slot_capacity = static_cast<uint32_t>(std::min<uint64_t>(
         layout.instanced_clusters, std::min(options.max_visible_clusters, shared::kMaxSlots)));
     scene->used_slices = layout.pool.slice_words[1] == 0 ? 1 : shared::kPoolSlices;

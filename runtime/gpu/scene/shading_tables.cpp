@@ -27,7 +27,7 @@ Status uploadSpecularTable(const Device& device, const formats::PackView& pack, 
         scene.specular_table,
         scene.arena.createImage(
             {.format = VK_FORMAT_R8_UNORM, .extent = {kNodes, kNodes * kNodes}, .usage = kTableUsage}));
-    HEARTH_TRY(uploader.upload(scene.specular_table, std::as_bytes(std::span(table.values)), 1));
+    HEARTH_TRY(uploader.upload(scene.specular_table, std::as_bytes(std::span(table.values)), {.bytes = 1}));
     scene.specular_spacing = table.spacing;
     forEachView(scene,
                 [&](const SceneView& view)
@@ -55,14 +55,14 @@ Status uploadShadingTables(const Device& device, const formats::PackView& pack, 
                                  .usage = kTableUsage}));
     std::vector<uint64_t> reflectance(shared::kReflectanceTable.begin(), shared::kReflectanceTable.end());
     reflectance.insert(reflectance.end(), shared::kSheenTable.begin(), shared::kSheenTable.end());
-    HEARTH_TRY(
-        uploader.upload(scene.reflectance_table, std::as_bytes(std::span(reflectance)), sizeof(uint64_t)));
+    HEARTH_TRY(uploader.upload(scene.reflectance_table, std::as_bytes(std::span(reflectance)),
+                               {.bytes = sizeof(uint64_t)}));
     HEARTH_ASSIGN_OR_RETURN(scene.sky_table, scene.arena.createImage({.format = VK_FORMAT_R16G16_SFLOAT,
                                                                       .extent = {shared::kSkyTableHeights,
                                                                                  shared::kSkyTableAngles},
                                                                       .usage = kTableUsage}));
-    HEARTH_TRY(
-        uploader.upload(scene.sky_table, std::as_bytes(std::span(shared::skyTable())), sizeof(uint32_t)));
+    HEARTH_TRY(uploader.upload(scene.sky_table, std::as_bytes(std::span(shared::skyTable())),
+                               {.bytes = sizeof(uint32_t)}));
     forEachView(scene,
                 [&](const SceneView& view)
                 {

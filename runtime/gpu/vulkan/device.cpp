@@ -48,9 +48,15 @@ Result<Device> makeDevice(const DeviceDescription& description, std::span<const 
     device.sampler_anisotropy = description.sampler_anisotropy;
     const auto has = [&](VkFormat format, VkFormatFeatureFlags features)
     { return hasFeatures(device.vk, description.physical_device, format, features); };
-    device.samples_unorm16 =
-        has(VK_FORMAT_R16G16B16A16_UNORM,
-            VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT | VK_FORMAT_FEATURE_TRANSFER_DST_BIT);
+    for (uint32_t format = 0; format < formats::kTexelFormatEnd; ++format)
+        if (formats::isPackFormat(format))
+        {
+            const formats::TexelFormatTraits& traits = *formats::findTexelFormat(format);
+            device.texel_formats[format] =
+                traits.family != formats::TexelFamily::astc_hdr &&
+                has(static_cast<VkFormat>(traits.vulkan_format),
+                    VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT | VK_FORMAT_FEATURE_TRANSFER_DST_BIT);
+        }
     device.filters_d16 = has(VK_FORMAT_D16_UNORM, VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT);
     device.filters_d32 = has(VK_FORMAT_D32_SFLOAT, VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT);
     device.draws_packed_floats =

@@ -3,9 +3,11 @@
 #pragma once
 
 #include "formats/base/result.h"
+#include "formats/records/texel_format.h"
 #include "runtime/gpu/vulkan/device_limits.h"
 #include "runtime/gpu/vulkan/memory_hooks.h"
 
+#include <bitset>
 #include <string>
 #include <utility>
 
@@ -56,8 +58,9 @@ struct Device
     MemoryHooks memory_hooks{};
     MessageHook message_hook{};
     bool sampler_anisotropy = false;
-    /// Textures may have R16G16B16A16_UNORM, which Vulkan does not require.
-    bool samples_unorm16 = false;
+    /// [TexelFormat]: textures may have the format and be filtered. Features for compressed formats need not be
+    /// enabled. ASTC of floats needs an extension that no caller can enable here: it is never set.
+    std::bitset<formats::kTexelFormatEnd> texel_formats{};
     /// Compares with depth images of these formats may be bilinear, which Vulkan does not require.
     bool filters_d16 = false;
     bool filters_d32 = false;

@@ -181,6 +181,7 @@ Result<Image> MemoryArena::createImage(const ImageDescription& description)
     view_info.image = handle;
     view_info.viewType = description.array_layers > 0 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
     view_info.format = description.format;
+    view_info.components = description.components;
     view_info.subresourceRange = {description.aspect, 0, description.mip_count, 0, info.arrayLayers};
     VkImageView view;
     HEARTH_TRY_VK(device_->vk.vkCreateImageView(device_->handle, &view_info, device_->allocator, &view),

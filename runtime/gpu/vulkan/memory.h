@@ -37,6 +37,7 @@ struct ImageDescription
     VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
     uint32_t array_layers = 0;            ///< 0: not an array
     MemoryKind kind = MemoryKind::device; ///< or transient, with usage TRANSIENT_ATTACHMENT
+    VkComponentMapping components{};      ///< of the view
 };
 
 /// Allocation from MemoryHooks, freed on destruction.

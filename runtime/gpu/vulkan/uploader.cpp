@@ -31,7 +31,7 @@ Status Uploader::upload(const Buffer& target, std::span<const std::byte> bytes)
     return success();
 }
 
-Status Uploader::upload(const Image& target, std::span<const std::byte> texels, uint32_t texel_bytes)
+Status Uploader::upload(const Image& target, std::span<const std::byte> texels, const TexelBlock& block)
 {
     HEARTH_ASSIGN_OR_RETURN(
         Buffer staging,
@@ -43,8 +43,11 @@ Status Uploader::upload(const Image& target, std::span<const std::byte> texels, 
     {
         const VkExtent3D extent{std::max(1u, target.extent.width >> mip),
                                 std::max(1u, target.extent.height >> mip), 1};
+        // the mip's own extent, even where its last blocks are not whole
         regions.push_back({offset, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, mip, 0, 1}, {0, 0, 0}, extent});
-        offset += VkDeviceSize{extent.width} * extent.height * texel_bytes;
+        const VkDeviceSize columns = (extent.width + block.width - 1) / block.width;
+        const VkDeviceSize rows = (extent.height + block.height - 1) / block.height;
+        offset += columns * rows * block.bytes;
     }
     HEARTH_ASSERT(offset == texels.size());
     transition(device_, commands_, target, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 0,

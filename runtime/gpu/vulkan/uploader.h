@@ -8,6 +8,14 @@
 namespace hearth::gpu
 {
 
+/// Unit of an image's data.
+struct TexelBlock
+{
+    uint32_t bytes;
+    uint32_t width = 1; ///< texels
+    uint32_t height = 1;
+};
+
 /// Owns the staging memory of one upload; must live until the recorded commands have run.
 class Uploader
 {
@@ -30,8 +38,9 @@ public:
         return upload(target, std::as_bytes(std::span(records)));
     }
 
-    /// Upload all mips of an image, finest first, tightly packed; leaves it readable by shaders.
-    Status upload(const Image& target, std::span<const std::byte> texels, uint32_t texel_bytes);
+    /// Upload all mips of an image, finest first, tightly packed, in whole blocks; leaves it
+    /// readable by shaders.
+    Status upload(const Image& target, std::span<const std::byte> texels, const TexelBlock& block);
 
     /// Make all copies visible to later commands.
     void finish();

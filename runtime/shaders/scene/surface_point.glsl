@@ -80,11 +80,11 @@ float clampRoughness(float roughness) { return clamp(roughness, 0.045, 1.0); }
 float surfaceRoughness(vec4 metallic_roughness) { return clampRoughness(material.roughness * metallic_roughness.g); }
 
 // Normal on the front side with a normal map applied: unit, world axes.
-// texel  of the map
-vec3 mappedNormal(SurfacePoint point, vec4 texel, float scale)
+// texel  of the map: x and y of a unit vector. Formats of two channels store no z, and filtered ones need it to be unit
+vec3 mappedNormal(SurfacePoint point, vec2 texel, float scale)
 {
-    vec3 mapped = texel.xyz * 2.0 - 1.0;
-    mapped.xy *= scale;
+    vec2 slope = texel * 2.0 - 1.0;
+    vec3 mapped = vec3(slope * scale, sqrt(max(0.0, 1.0 - dot(slope, slope))));
     return normalizeOr(point.tangent * mapped.x + point.bitangent * mapped.y + point.normal * mapped.z, point.normal);
 }
 
@@ -93,6 +93,6 @@ vec3 shadingNormal(SurfacePoint point, SurfaceUvs uvs)
 {
     vec3 normal = point.normal;
     if (hasTexture(kTextureNormal))
-        normal = mappedNormal(point, sampleSurface(uvs, kTextureNormal, normal_texture), material.normal_scale);
+        normal = mappedNormal(point, sampleSurface(uvs, kTextureNormal, normal_texture).xy, material.normal_scale);
     return point.front ? normal : -normal;
 }

@@ -70,7 +70,7 @@ Layers surfaceLayers(SurfacePoint point, SurfaceUvs uvs, Shading s)
         mediump vec4 coat = sampleLayer(uvs, kTextureClearcoat, clearcoat_texture);
         vec3 normal = point.normal;
         if (hasTexture(kTextureClearcoatNormal))
-            normal = mappedNormal(point, sampleLayer(uvs, kTextureClearcoatNormal, clearcoat_normal_texture),
+            normal = mappedNormal(point, sampleLayer(uvs, kTextureClearcoatNormal, clearcoat_normal_texture).xy,
                                   material_layers.clearcoat_normal_scale);
         mediump float strength = material_layers.clearcoat;
         layers.clearcoat = strength * coat.r;

@@ -456,6 +456,7 @@ gpu::SceneOptions sceneOptions(const RenderOptions& options, const formats::Pack
     scene.geometry_budget = options.geometry_budget;
     scene.stream = {.read = pageReader(pack)};
     scene.frames_in_flight = 1;
+    scene.decode_textures = true;
     scene.shadows = fitShadows(options.shadows, pack, cameras);
     return scene;
 }

@@ -15,8 +15,10 @@ Result<std::unique_ptr<LoadedScene>> LoadedScene::load(VulkanHost& host, gpu::Re
 {
     std::unique_ptr<LoadedScene> loaded(new LoadedScene);
     loaded->geometry_budget_ = geometry_budget;
-    gpu::SceneOptions options{
-        .frames_in_flight = kFramesInFlight, .geometry_budget = geometry_budget, .shadows = shadows};
+    gpu::SceneOptions options{.frames_in_flight = kFramesInFlight,
+                              .geometry_budget = geometry_budget,
+                              .shadows = shadows,
+                              .decode_textures = true};
     if (geometry_budget > 0)
     {
         loaded->loader_ =

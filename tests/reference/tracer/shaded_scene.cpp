@@ -144,7 +144,8 @@ Double3 ShadedScene::mappedNormal(const TextureRef& map, float scale, const Surf
 {
     if (map.image == kInvalidIndex)
         return point.normal;
-    const Double3 n = look(map, point, sample_size).rgb * 2.0 - Double3{1, 1, 1};
+    Double3 n = look(map, point, sample_size).rgb * 2.0 - Double3{1, 1, 1};
+    n.z = std::sqrt(std::max(0.0, 1 - n.x * n.x - n.y * n.y)); // maps give x and y
     return normalize(point.tangent * (n.x * double{scale}) + point.bitangent * (n.y * double{scale}) +
                      point.normal * n.z);
 }

@@ -401,7 +401,8 @@ TEST_F(CallerTest, itIsToldThatItsDeviceHasNoTexturesOfSixteenBits)
     device.message_hook = {&messages, [](void* user, const char* message)
                            { static_cast<std::vector<std::string>*>(user)->emplace_back(message); }};
     const std::vector<std::byte> expected = drawOnce(device);
-    EXPECT_EQ(messages.empty(), renderer().device().samples_unorm16);
+    EXPECT_EQ(messages.empty(),
+              renderer().device().texel_formats[static_cast<size_t>(formats::TexelFormat::rgba16_unorm)]);
 
     messages.clear();
     spy.missing_format = VK_FORMAT_R16G16B16A16_UNORM;

@@ -94,7 +94,7 @@ TEST(DeviceLimits, theLayerShowsThem)
     ASSERT_TRUE(device.ok());
     EXPECT_EQ(device->limits.maxPerStageDescriptorStorageBuffers, 12u);
     EXPECT_EQ(device->limits.maxComputeWorkGroupInvocations, 128u);
-    EXPECT_FALSE(device->samples_unorm16);
+    EXPECT_FALSE(device->texel_formats[static_cast<size_t>(formats::TexelFormat::rgba16_unorm)]);
 }
 
 TEST(DeviceLimits, theLayerShowsFormatsThatAreNotFiltered)
@@ -114,8 +114,9 @@ TEST(DeviceLimits, theLayerShowsFormatsThatAreNotFiltered)
         EXPECT_NE(features(format) & VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT, 0u);
         EXPECT_EQ(features(format) & VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT, 0u);
     }
-    EXPECT_FALSE(device->samples_unorm16);
-    EXPECT_FALSE(gpu::makeDevice(createHost("malig52")->description())->samples_unorm16);
+    EXPECT_FALSE(device->texel_formats[static_cast<size_t>(formats::TexelFormat::rgba16_unorm)]);
+    EXPECT_FALSE(gpu::makeDevice(createHost("malig52")->description())
+                     ->texel_formats[static_cast<size_t>(formats::TexelFormat::rgba16_unorm)]);
 }
 
 TEST(DeviceLimits, theLayerRefusesMore)

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/pack/image_error.h"
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+namespace hearth::formats
+{
+
+std::string_view imageRoleName(uint32_t role)
+{
+    constexpr std::string_view kNames[] = {"none", "color", "cutout", "emissive", "data", "normal", "light"};
+    return role < std::size(kNames) ? kNames[role] : "unknown";
+}
+
+std::string_view imageErrorUnit(ImageRole role)
+{
+    return role == ImageRole::normal ? "degrees" : role == ImageRole::light ? "stops" : "psnr_db";
+}
+
+double convertImageError(ImageRole role, double error)
+{
+    if (role == ImageRole::normal)
+        return error * 180 / std::numbers::pi;
+    return role == ImageRole::light ? error : -20 * std::log10(error);
+}
+
+std::string imageErrorText(ImageRole role, double error)
+{
+    if (error == 0)
+        return "exact";
+    const char* const form =
+        role == ImageRole::normal ? "%.2f degrees" : role == ImageRole::light ? "%.3f stops" : "%.1f dB";
+    char text[64];
+    std::snprintf(text, sizeof(text), form, convertImageError(role, error));
+    return text;
+}
+
+} // namespace hearth::formats
