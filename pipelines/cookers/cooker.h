@@ -34,8 +34,8 @@ struct Cooker
     std::string_view name; ///< "clusters": the program is hearth-clusters
     /// source: runs once for each source; pack: runs once for all sources
     settings::Scope scope = settings::Scope::source;
-    /// key of the setting that switches the cooker (settings::switchSetting): it runs unless this is off;
-    /// empty: it always runs
+    /// key of the setting that switches the cooker (settings::switchSetting, or a list): it runs unless this
+    /// is off, or an empty list; empty: it always runs
     std::string_view switched_by{};
     /// Cookers whose parts it reads, in the order of its command line. A cooker of the pack reads the parts
     /// of each source.

@@ -10,6 +10,7 @@ namespace hearth::cookers
 Cooker describeImport();
 Cooker describeClusters();
 Cooker describeTextures();
+Cooker describeTexels();
 Cooker describeSkinning();
 Cooker describeNeighbours();
 Cooker describeVisibility();
@@ -26,9 +27,9 @@ using settings::Values;
 
 std::vector<Cooker> makeCookers()
 {
-    std::vector<Cooker> cookers{describeImport(),   describeClusters(),   describeTextures(),
-                                describeSkinning(), describeNeighbours(), describeVisibility(),
-                                describeSpecular(), describeBricks(),     describeLink()};
+    std::vector<Cooker> cookers{
+        describeImport(),     describeClusters(),   describeTextures(), describeTexels(), describeSkinning(),
+        describeNeighbours(), describeVisibility(), describeSpecular(), describeBricks(), describeLink()};
     for (Cooker& cooker : cookers)
         for (Setting& setting : cooker.settings)
             setting.scope = cooker.scope;
@@ -74,7 +75,11 @@ bool isEnabled(const Cooker& cooker, const Values& of_pack, std::span<const Valu
     const Setting* setting = settings::findSetting(profileSettings(), cooker.switched_by);
     HEARTH_ASSERT(setting != nullptr);
     const auto isNotOff = [&](const Values& values)
-    { return settings::choiceOr(values, setting->key, setting->default_text) != "off"; };
+    {
+        const settings::Value* const value = settings::findValue(values, setting->key);
+        return value == nullptr ? setting->default_text != "off"
+                                : value->text != "\"off\"" && value->text != "[]";
+    };
     return setting->scope == Scope::pack ? isNotOff(of_pack) : std::ranges::any_of(of_sources, isNotOff);
 }
 

@@ -1,4 +1,4 @@
-// hearth-textures: mips and block compression of the images of a source.
+// hearth-textures: mips of the images of a source.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/textures/texture_part.h"
 #include "pipelines/cookers/words.h"

@@ -27,6 +27,7 @@ bricks.memory = "10M"
 
 # Memory to spare: textures as they are up to 4096, and more rays.
 [profile.desktop]
+textures.families = ["bc"]
 textures.max_size = 4096
 visibility.quality = "high"
 bricks.memory = "64M"

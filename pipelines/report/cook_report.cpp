@@ -187,6 +187,21 @@ uint64_t sumMember(const Json& list, const char* group, const char* key)
     return sum;
 }
 
+/// Return the textures of a source as they are in the pack.
+/// textures, texels  statistics of their mips, and of their encoding, if they were encoded
+Json texturesJson(Json textures, const Json& texels)
+{
+    for (size_t i = 0; i < textures.size() && i < texels.size(); ++i)
+    {
+        const Json& encoded = texels[i];
+        for (const char* key : {"format", "bytes", "bytes_stored"})
+            textures[i][key] = encoded[key];
+        for (const char* key : {"role", "error", "error_p999", "error_smooth", "coverage_error", "target", "holds_target"})
+            textures[i]["encoding"][key] = encoded[key];
+    }
+    return textures;
+}
+
 Json assetJson(const CookReport& cook, const Asset& asset)
 {
     Json json{{"source", cook.sources[asset.source]}, {"state", stateName(cook, asset)}};
@@ -235,7 +250,8 @@ Json assetJson(const CookReport& cook, const Asset& asset)
     json["stages"] = stages;
 
     const Json clusters = parseStatistics(cook, findAction("clusters"));
-    const Json textures = listMember(parseStatistics(cook, findAction("textures")), "images");
+    const Json textures = texturesJson(listMember(parseStatistics(cook, findAction("textures")), "images"),
+                                       listMember(parseStatistics(cook, findAction("texels")), "images"));
     json["sizes"] = {{"geometry", sumMember(listMember(clusters, "meshes"), "bytes", "pages_stored")},
                      {"textures", sumMember(textures, nullptr, "bytes_stored")}};
     if (import_report.contains("counts"))

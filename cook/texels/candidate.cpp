@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/texels/candidate.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace hearth::texels
+{
+
+using namespace formats;
+
+namespace
+{
+
+/// Channels that must be stored, and those that a swizzle makes.
+struct ChannelSplit
+{
+    std::vector<uint8_t> stored;
+    Channels ones = 0; ///< 1 everywhere, or read by nobody
+    Channels zeros = 0;
+};
+
+/// Split the channels of an image. At least one is stored.
+ChannelSplit splitChannels(const PlainImage& image)
+{
+    ChannelSplit split;
+    DecodedTexel values;
+    const bool is_light = image.role == ImageRole::light;
+    const Channels constant = is_light ? Channels{0} : findConstantChannels(image, values);
+    for (uint8_t c = 0; c < 4; ++c)
+    {
+        const auto bit = static_cast<Channels>(1u << c);
+        if (!has(image.channels, c) || (has(constant, c) && values[c] == 0xFFFF))
+            split.ones |= bit;
+        else if (has(constant, c) && values[c] == 0)
+            split.zeros |= bit;
+        else
+            split.stored.push_back(c);
+    }
+    if (split.stored.empty())
+    {
+        const uint8_t first = static_cast<uint8_t>(std::countr_zero(static_cast<uint32_t>(image.channels)));
+        split.stored.push_back(first);
+        split.ones &= static_cast<Channels>(~(1u << first));
+        split.zeros &= static_cast<Channels>(~(1u << first));
+    }
+    return split;
+}
+
+/// Set the swizzle of channels that are not stored.
+void addConstants(const ChannelSplit& split, Candidate& candidate)
+{
+    for (uint32_t c = 0; c < 4; ++c)
+        if (has(split.ones, c) || has(split.zeros, c))
+            candidate.swizzle[c] = has(split.ones, c) ? Swizzle::one : Swizzle::zero;
+}
+
+/// Return the number of the stored channel as the source of a swizzle.
+Swizzle readStored(uint32_t channel)
+{
+    return static_cast<Swizzle>(static_cast<uint32_t>(Swizzle::red) + channel);
+}
+
+/// Store the channels in the order of the image, one for each, others as 1.
+Candidate layOutPlainly(const ChannelSplit& split, TexelFormat format)
+{
+    Candidate candidate{.traits = &texelTraits(format), .stored = {0, 1, 2, 3}};
+    for (uint8_t c = 0; c < 4; ++c)
+        if (std::ranges::find(split.stored, c) == split.stored.end())
+            candidate.stored[c] = kStoredOne;
+    addConstants(split, candidate);
+    return candidate;
+}
+
+/// Store the channels one after the other, from red on.
+Candidate layOutInOrder(const ChannelSplit& split, TexelFormat format)
+{
+    Candidate candidate{.traits = &texelTraits(format),
+                        .stored = {kStoredOne, kStoredOne, kStoredOne, kStoredOne}};
+    for (uint8_t i = 0; i < split.stored.size(); ++i)
+    {
+        candidate.stored[i] = split.stored[i];
+        candidate.swizzle[split.stored[i]] = i == split.stored[i] ? Swizzle::identity : readStored(i);
+    }
+    addConstants(split, candidate);
+    return candidate;
+}
+
+/// Store one channel as luminance, or two as luminance and alpha, which ASTC codes with fewer bits than red
+/// and green.
+Candidate layOutAsLuminance(const ChannelSplit& split, TexelFormat format)
+{
+    const uint8_t first = split.stored.front(),
+                  second = split.stored.size() > 1 ? split.stored[1] : kStoredOne;
+    Candidate candidate{.traits = &texelTraits(format), .stored = {first, first, first, second}};
+    candidate.swizzle[first] = first < 3 ? Swizzle::identity : Swizzle::red;
+    if (second != kStoredOne)
+    {
+        candidate.swizzle[second] = second == 3 ? Swizzle::identity : Swizzle::alpha;
+        candidate.has_two_parts = true;
+    }
+    addConstants(split, candidate);
+    return candidate;
+}
+
+bool isColor(const PlainImage& image)
+{
+    return isSrgb(image.record.format);
+}
+
+/// Return true if the stored channels are numbers that the transfer function does not change: a format of
+/// sRGB would change them.
+bool isLinear(const ChannelSplit& split)
+{
+    return split.stored.size() == 1 && split.stored.front() == 3;
+}
+
+void addAstc(const PlainImage& image, const ChannelSplit& split, std::vector<Candidate>& candidates)
+{
+    const bool is_srgb = isColor(image) && !isLinear(split);
+    const TexelFormat first = is_srgb ? TexelFormat::astc_srgb : TexelFormat::astc_unorm;
+    for (uint32_t footprint = 0; footprint < kAstcFootprints; ++footprint)
+    {
+        const TexelFormat format = astcFormat(first, footprint);
+        const bool is_luminance = !isColor(image) && split.stored.size() <= 2;
+        candidates.push_back(is_luminance ? layOutAsLuminance(split, format) : layOutPlainly(split, format));
+    }
+}
+
+} // namespace
+
+bool addFamily(std::string_view name, Families& families)
+{
+    if (name == "astc")
+        families.astc = true;
+    else if (name == "etc2")
+        families.etc2 = true;
+    else if (name == "bc")
+        families.bc = true;
+    else
+        return false;
+    return true;
+}
+
+std::vector<Candidate> listCandidates(const PlainImage& image, const Families& families)
+{
+    std::vector<Candidate> candidates;
+    if (image.role == ImageRole::light)
+        return {plainCandidate(image)};
+    const ChannelSplit split = splitChannels(image);
+    if (families.astc)
+        addAstc(image, split, candidates);
+    std::ranges::stable_sort(candidates, {}, &Candidate::bitsPerTexel);
+    candidates.push_back(plainCandidate(image));
+    return candidates;
+}
+
+Candidate plainCandidate(const PlainImage& image)
+{
+    if (image.role == ImageRole::light)
+        return {.traits = &texelTraits(TexelFormat::rgb9e5_float), .stored = {0, 1, 2, kStoredOne}};
+    const ChannelSplit split = splitChannels(image);
+    if (isColor(image))
+        return layOutPlainly(split, TexelFormat::rgba8_srgb);
+    if (split.stored.size() > 2)
+        return layOutPlainly(split, TexelFormat::rgba8_unorm);
+    return layOutInOrder(split, split.stored.size() == 1 ? TexelFormat::r8_unorm : TexelFormat::rg8_unorm);
+}
+
+} // namespace hearth::texels

@@ -1,0 +1,50 @@
+// Formats that an image may get on a target, and how its channels are laid out in each.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/texels/plain_image.h"
+
+#include <array>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace hearth::texels
+{
+
+/// Value of Candidate::stored for a channel that is 1 everywhere.
+inline constexpr uint8_t kStoredOne = 4;
+
+struct Candidate
+{
+    const formats::TexelFormatTraits* traits = nullptr;
+    std::array<uint8_t, 4> stored{}; ///< image channel of each stored channel: 0 to 3, or kStoredOne
+    std::array<formats::Swizzle, 4> swizzle{};
+    bool has_two_parts = false; ///< the stored channels are red, three times, and alpha: independent numbers
+
+    double bitsPerTexel() const
+    {
+        return 8.0 * traits->block_bytes / (1.0 * traits->block_width * traits->block_height);
+    }
+};
+
+/// Families of formats that a target reads, besides plain ones.
+struct Families
+{
+    bool astc = false;
+    bool etc2 = false;
+    bool bc = false;
+};
+
+/// Parse the name of a family: "astc", "etc2" or "bc". False if there is none of that name.
+bool addFamily(std::string_view name, Families& families);
+
+/// Return the compressed formats that an image may get, from the fewest bits a texel on; then plain().
+/// Channels that are 0 or 1 in all texels are not stored: the view's swizzle makes them.
+std::vector<Candidate> listCandidates(const PlainImage& image, const Families& families);
+
+/// Return the format without compression, with no more channels than are read, and 8 bits of each; light
+/// gets RGB9E5.
+Candidate plainCandidate(const PlainImage& image);
+
+} // namespace hearth::texels

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/texels/encode.h"
+
+#include "cook/texels/astc_encoder.h"
+#include "cook/texels/plain_encoder.h"
+#include "formats/base/assert.h"
+#include "formats/base/half.h"
+#include "formats/texels/decode_texels.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace hearth::texels
+{
+
+using namespace formats;
+
+namespace
+{
+
+// Texels that are encoded at a time: enough that threads rarely meet, few enough that they all have work.
+constexpr uint32_t kStripeTexels = 1u << 15;
+
+/// Steps of the histogram of errors of texels, a power of two.
+constexpr size_t kErrorSteps = 1u << 16;
+
+/// Whole rows of blocks of a mip.
+struct Stripe
+{
+    uint32_t mip;
+    uint32_t first_row; ///< of texels
+    uint32_t rows;
+    size_t first_byte; ///< in the encoded image
+    size_t bytes;
+};
+
+std::vector<Stripe> listStripes(const PlainImage& image, const TexelFormatTraits& traits, uint32_t mips)
+{
+    std::vector<Stripe> stripes;
+    size_t next = 0;
+    for (uint32_t mip = 0; mip < mips; ++mip)
+    {
+        const MipExtent extent = mipExtent(image.record, mip);
+        const uint32_t block_rows = std::max(kStripeTexels / extent.width / traits.block_height, 1u);
+        for (uint32_t y = 0; y < extent.height; y += block_rows * traits.block_height)
+        {
+            const uint32_t rows = std::min(block_rows * traits.block_height, extent.height - y);
+            const auto bytes = static_cast<size_t>(formats::mipBytes(traits, extent.width, rows));
+            stripes.push_back({mip, y, rows, next, bytes});
+            next += bytes;
+        }
+    }
+    return stripes;
+}
+
+/// Error of a stripe, with a histogram of those of its texels.
+struct StripeError
+{
+    ErrorSum sum;
+    ErrorSum smooth;
+    std::vector<uint32_t> histogram{};
+    uint64_t passing_before = 0, passing_after = 0; ///< texels that pass the alpha test
+};
+
+/// Largest error of a texel, for the histogram: the whole range, a right angle and more, or 16 stops.
+double maxTexelError(ImageRole role)
+{
+    return role == ImageRole::light ? 16 : role == ImageRole::normal ? 2 : 1;
+}
+
+StripeError makeStripeError(const PlainImage& image)
+{
+    return {.sum = ErrorSum(image.role, image.channels), .smooth = ErrorSum(image.role, image.channels)};
+}
+
+StripeError measureStripe(const PlainImage& image, std::span<const SmoothCells> smooth,
+                          const Candidate& candidate, const Stripe& stripe,
+                          std::span<const std::byte> encoded)
+{
+    StripeError error = makeStripeError(image);
+    const uint32_t width = mipExtent(image.record, stripe.mip).width;
+    const std::vector<DecodedTexel> plain = decodeRows(image, stripe.mip, stripe.first_row, stripe.rows);
+    std::vector<DecodedTexel> read =
+        decodeMip(*candidate.traits, width, stripe.rows, encoded.subspan(stripe.first_byte, stripe.bytes));
+    const uint16_t one = image.role == ImageRole::light ? halfFromFloat(1) : uint16_t{0xFFFF};
+    for (DecodedTexel& texel : read)
+        texel = applySwizzle(texel, candidate.swizzle, one);
+    error.sum.add(plain, read);
+    if (!smooth.empty())
+        for (size_t i = 0; i < plain.size(); ++i)
+            if (smooth[stripe.mip].contains(i % width, stripe.first_row + i / width))
+                error.smooth.add(std::span(plain).subspan(i, 1), std::span(read).subspan(i, 1));
+    if (stripe.mip == 0)
+    {
+        error.histogram.resize(kErrorSteps);
+        const double scale = (kErrorSteps - 1) / maxTexelError(image.role);
+        for (size_t i = 0; i < plain.size(); ++i)
+        {
+            const double steps = std::ceil(texelError(image.role, image.channels, plain[i], read[i]) * scale);
+            ++error.histogram[static_cast<size_t>(std::min(steps, kErrorSteps - 1.0))];
+        }
+    }
+    if ((image.record.flags & kImageAlphaTested) != 0)
+    {
+        const auto passes = [&](const DecodedTexel& texel)
+        { return static_cast<float>(texel[3]) / 65535.0f >= image.record.alpha_cutoff; };
+        error.passing_before = static_cast<uint64_t>(std::ranges::count_if(plain, passes));
+        error.passing_after = static_cast<uint64_t>(std::ranges::count_if(read, passes));
+    }
+    return error;
+}
+
+/// Return the error that 99.9 % of the texels do not exceed.
+double findPercentile(std::span<const uint32_t> histogram, ImageRole role)
+{
+    const uint64_t total = std::accumulate(histogram.begin(), histogram.end(), uint64_t{0});
+    const uint64_t wanted = total - total / 1000;
+    uint64_t sum = 0;
+    for (size_t step = 0; step < histogram.size(); ++step)
+        if ((sum += histogram[step]) >= wanted)
+            return static_cast<double>(step) * maxTexelError(role) / (kErrorSteps - 1);
+    return maxTexelError(role);
+}
+
+} // namespace
+
+StoredTexels arrangeChannels(const PlainImage& image, const Candidate& candidate, uint32_t width,
+                             uint32_t height, std::span<const DecodedTexel> texels)
+{
+    HEARTH_ASSERT(texels.size() == size_t{width} * height);
+    StoredTexels stored{.width = width, .height = height, .role = image.role};
+    stored.is_narrow = texelBytes(image.record.format) == 4;
+    stored.texels.reserve(texels.size());
+    for (const DecodedTexel& texel : texels)
+    {
+        DecodedTexel& next = stored.texels.emplace_back();
+        for (uint32_t c = 0; c < 4; ++c)
+            next[c] = candidate.stored[c] == kStoredOne ? uint16_t{0xFFFF} : texel[candidate.stored[c]];
+    }
+    return stored;
+}
+
+std::vector<std::byte> encodeTexels(const Candidate& candidate, const StoredTexels& texels, Effort effort)
+{
+    switch (candidate.traits->family)
+    {
+    case TexelFamily::astc:
+        return encodeAstc(candidate, texels, effort);
+    case TexelFamily::plain:
+        return encodePlain(*candidate.traits, texels.texels);
+    default:
+        HEARTH_ASSERT(false);
+        return {};
+    }
+}
+
+std::vector<std::byte> encodeImage(const PlainImage& image, const Candidate& candidate, Effort effort)
+{
+    const std::vector<Stripe> stripes = listStripes(image, *candidate.traits, image.record.mip_count);
+    std::vector<std::byte> encoded(stripes.back().first_byte + stripes.back().bytes);
+    tbb::parallel_for(
+        size_t{0}, stripes.size(),
+        [&](size_t i)
+        {
+            const Stripe& stripe = stripes[i];
+            const uint32_t width = mipExtent(image.record, stripe.mip).width;
+            const std::vector<std::byte> bytes =
+                encodeTexels(candidate,
+                             arrangeChannels(image, candidate, width, stripe.rows,
+                                             decodeRows(image, stripe.mip, stripe.first_row, stripe.rows)),
+                             effort);
+            HEARTH_ASSERT(bytes.size() == stripe.bytes);
+            std::ranges::copy(bytes, encoded.begin() + static_cast<ptrdiff_t>(stripe.first_byte));
+        });
+    return encoded;
+}
+
+ImageError measureError(const PlainImage& image, std::span<const SmoothCells> smooth,
+                        const Candidate& candidate, std::span<const std::byte> encoded)
+{
+    const uint32_t mips = countMeasuredMips(image.record);
+    const std::vector<Stripe> stripes = listStripes(image, *candidate.traits, mips);
+    std::vector<StripeError> errors(stripes.size(), makeStripeError(image));
+    tbb::parallel_for(size_t{0}, stripes.size(),
+                      [&](size_t i)
+                      { errors[i] = measureStripe(image, smooth, candidate, stripes[i], encoded); });
+
+    std::vector<ErrorSum> sums(mips, ErrorSum(image.role, image.channels)), smooth_sums = sums;
+    std::vector<uint32_t> histogram(kErrorSteps);
+    std::vector<StripeError> mip_errors(mips, makeStripeError(image));
+    for (size_t i = 0; i < stripes.size(); ++i)
+    {
+        StripeError& mip = mip_errors[stripes[i].mip];
+        sums[stripes[i].mip].add(errors[i].sum);
+        smooth_sums[stripes[i].mip].add(errors[i].smooth);
+        mip.passing_before += errors[i].passing_before;
+        mip.passing_after += errors[i].passing_after;
+        for (size_t step = 0; step < errors[i].histogram.size(); ++step)
+            histogram[step] += errors[i].histogram[step];
+    }
+    ImageError result{.error = combineMips(image.role, image.channels, sums),
+                      .smooth = combineMips(image.role, image.channels, smooth_sums),
+                      .error_p999 = findPercentile(histogram, image.role)};
+    for (uint32_t mip = 0; mip < mips; ++mip)
+    {
+        const double before = static_cast<double>(mip_errors[mip].passing_before);
+        const double after = static_cast<double>(mip_errors[mip].passing_after);
+        result.coverage =
+            std::max(result.coverage, std::abs(after - before) / static_cast<double>(sums[mip].count()));
+    }
+    return result;
+}
+
+} // namespace hearth::texels

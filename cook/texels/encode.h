@@ -1,0 +1,54 @@
+// Encodes mips in the format of a candidate.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/texels/block_texels.h"
+#include "cook/texels/candidate.h"
+#include "cook/texels/smooth_cells.h"
+#include "cook/texels/texel_error.h"
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+namespace hearth::texels
+{
+
+/// Texels of whole rows of blocks, in the channels that are stored, with what the encoder has to know of
+/// them.
+struct StoredTexels
+{
+    uint32_t width = 0;
+    uint32_t height = 0;
+    std::vector<formats::DecodedTexel> texels{}; ///< rows from top to bottom
+    formats::ImageRole role = formats::ImageRole::none;
+    bool is_narrow = true; ///< all values are multiples of 257: 8 bits
+};
+
+/// Return texels with the channels that a candidate stores.
+StoredTexels arrangeChannels(const PlainImage& image, const Candidate& candidate, uint32_t width,
+                             uint32_t height, std::span<const formats::DecodedTexel> texels);
+
+/// Encode texels; on the caller's thread.
+/// returns  mipBytes(*candidate.traits, texels.width, texels.height)
+std::vector<std::byte> encodeTexels(const Candidate& candidate, const StoredTexels& texels, Effort effort);
+
+/// Encode all mips, finest first, tightly packed. Same bytes for any number of threads.
+std::vector<std::byte> encodeImage(const PlainImage& image, const Candidate& candidate, Effort effort);
+
+/// Loss of encoding an image.
+struct ImageError
+{
+    double error = 0;      ///< as combineMips
+    double smooth = 0;     ///< the same of texels in smooth cells; 0 if they are too few to matter
+    double error_p999 = 0; ///< of mip 0: 99.9 % of its texels have no larger one
+    double coverage = 0; ///< change of the share of texels that pass the alpha test: the largest of the mips
+};
+
+/// Measure encoded mips with the decoders of formats, which know nothing of the encoder.
+/// smooth   as findSmoothCells
+/// encoded  of all mips, as encodeImage
+ImageError measureError(const PlainImage& image, std::span<const SmoothCells> smooth,
+                        const Candidate& candidate, std::span<const std::byte> encoded);
+
+} // namespace hearth::texels

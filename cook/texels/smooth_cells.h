@@ -1,0 +1,36 @@
+// Finds the smooth areas of an image, where the eye sees errors that it would not see elsewhere: seams between
+// blocks, steps in a gradient.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/texels/plain_image.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace hearth::texels
+{
+
+/// Cells of 4 x 4 texels of a mip, from its corner on. A cell is smooth if no channel that is read spans more
+/// than 4 of 255 codes in it.
+class SmoothCells
+{
+public:
+    SmoothCells(const PlainImage& image, uint32_t mip);
+
+    /// True if the texel lies in a smooth cell.
+    bool contains(uint64_t x, uint64_t y) const { return is_smooth_[y / 4 * columns_ + x / 4] != 0; }
+
+    uint64_t countSmooth() const;
+    uint64_t count() const { return is_smooth_.size(); }
+
+private:
+    uint64_t columns_;
+    std::vector<uint8_t> is_smooth_; ///< [row of cells * columns_ + column]
+};
+
+/// Return the cells of the mips that errors are measured on; none unless the image is a colour and half of
+/// its cells are smooth: a sky, a glow, a panel. Elsewhere texture hides what smooth areas would show.
+std::vector<SmoothCells> findSmoothCells(const PlainImage& image);
+
+} // namespace hearth::texels

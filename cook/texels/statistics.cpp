@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
+#include "cook/texels/texel_part.h"
+#include "formats/pack/image_error.h"
+
+#include <cmath>
+
+namespace hearth::texels
+{
+
+using namespace formats;
+
+namespace
+{
+
+/// Convert an error to the unit of its role, beside the number of the record.
+Json errorJson(ImageRole role, double error)
+{
+    const double converted = convertImageError(role, error);
+    return {{"rms", error},
+            {std::string(imageErrorUnit(role)), std::isfinite(converted) ? Json(converted) : Json(nullptr)}};
+}
+
+Json imageJson(const ImageResult& image, size_t index)
+{
+    const auto role = static_cast<ImageRole>(image.record.role);
+    return {{"index", index},
+            {"name", image.name},
+            {"width", image.record.width},
+            {"height", image.record.height},
+            {"mips", image.record.mip_count},
+            {"format", std::string(texelFormatName(image.record.format))},
+            {"role", std::string(imageRoleName(image.record.role))},
+            {"bytes", image.bytes},
+            {"bytes_stored", image.stored_bytes},
+            {"error", errorJson(role, double{image.record.error})},
+            {"error_p999", errorJson(role, double{image.record.error_p999})},
+            {"error_smooth", errorJson(role, double{image.record.error_smooth})},
+            {"coverage_error", image.record.coverage_error},
+            {"target", errorJson(role, image.target)},
+            {"holds_target", image.holds_target}};
+}
+
+} // namespace
+
+std::string statisticsJson(const std::string& source, std::span<const ImageResult> results)
+{
+    Json json{{"schema", "hearth.texels/1"}, {"source", source}, {"images", Json::array()}};
+    for (size_t i = 0; i < results.size(); ++i)
+        json["images"].push_back(imageJson(results[i], i));
+    return json.dump(2) + "\n";
+}
+
+} // namespace hearth::texels

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/texels/texel_error.h"
+
+#include "formats/base/assert.h"
+#include "formats/base/double3.h"
+#include "formats/base/half.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace hearth::texels
+{
+
+using namespace formats;
+
+namespace
+{
+
+constexpr double kRange = 65535;
+constexpr uint32_t kMaxMeasuredMips = 4;
+constexpr uint32_t kMinMeasuredSide = 64;
+
+/// Return the direction that a shader makes of x and y.
+Double3 directionFromXy(const DecodedTexel& texel)
+{
+    const double x = texel[0] / kRange * 2 - 1, y = texel[1] / kRange * 2 - 1;
+    const Double3 direction{x, y, std::sqrt(std::max(0.0, 1 - x * x - y * y))};
+    return direction * (1 / length(direction));
+}
+
+/// Return the angle between two directions; exact for small ones, where an arc cosine is not.
+double angleBetween(const DecodedTexel& plain, const DecodedTexel& stored)
+{
+    const Double3 a = directionFromXy(plain), b = directionFromXy(stored);
+    return std::atan2(length(cross(a, b)), dot(a, b));
+}
+
+/// Return the channels of a texel with colours times alpha.
+std::array<int64_t, 4> weightByAlpha(const DecodedTexel& texel)
+{
+    const auto weigh = [&](uint16_t channel)
+    { return static_cast<int64_t>((uint64_t{channel} * texel[3] + 32767) / 65535); };
+    return {weigh(texel[0]), weigh(texel[1]), weigh(texel[2]), texel[3]};
+}
+
+std::array<int64_t, 4> codes(ImageRole role, const DecodedTexel& texel)
+{
+    return role == ImageRole::cutout ? weightByAlpha(texel)
+                                     : std::array<int64_t, 4>{texel[0], texel[1], texel[2], texel[3]};
+}
+
+double stops(uint16_t half)
+{
+    return std::log2(1 + std::max(0.0, double{floatFromHalf(half)}));
+}
+
+} // namespace
+
+void ErrorSum::add(std::span<const DecodedTexel> plain, std::span<const DecodedTexel> stored)
+{
+    HEARTH_ASSERT(plain.size() == stored.size());
+    count_ += plain.size();
+    for (size_t i = 0; i < plain.size(); ++i)
+    {
+        if (role_ == ImageRole::normal)
+        {
+            const double angle = angleBetween(plain[i], stored[i]);
+            real_[0] += angle * angle;
+            continue;
+        }
+        if (role_ == ImageRole::light)
+        {
+            for (uint32_t c = 0; c < 3; ++c)
+            {
+                const double difference = stops(plain[i][c]) - stops(stored[i][c]);
+                real_[c] += difference * difference;
+            }
+            continue;
+        }
+        const std::array<int64_t, 4> a = codes(role_, plain[i]), b = codes(role_, stored[i]);
+        for (uint32_t c = 0; c < 4; ++c)
+            if (has(channels_, c))
+                whole_[c] += static_cast<uint64_t>((a[c] - b[c]) * (a[c] - b[c]));
+    }
+}
+
+void ErrorSum::add(const ErrorSum& other)
+{
+    count_ += other.count_;
+    for (uint32_t c = 0; c < 4; ++c)
+    {
+        whole_[c] += other.whole_[c];
+        real_[c] += other.real_[c];
+    }
+}
+
+std::array<double, 4> ErrorSum::meanSquares() const
+{
+    std::array<double, 4> means{};
+    for (uint32_t c = 0; c < 4; ++c)
+        means[c] =
+            (static_cast<double>(whole_[c]) / (kRange * kRange) + real_[c]) / static_cast<double>(count_);
+    return means;
+}
+
+double combineMips(ImageRole role, Channels channels, std::span<const ErrorSum> mips)
+{
+    const auto counted_mips =
+        static_cast<double>(std::ranges::count_if(mips, [](const ErrorSum& mip) { return mip.count() > 0; }));
+    std::array<double, 4> means{};
+    for (const ErrorSum& mip : mips)
+        for (uint32_t c = 0; c < 4 && mip.count() > 0; ++c)
+            means[c] += mip.meanSquares()[c] / counted_mips;
+    if (role == ImageRole::normal)
+        return std::sqrt(means[0]);
+    if (role == ImageRole::data)
+        return std::sqrt(*std::max_element(means.begin(), means.end()));
+    const auto counted = role == ImageRole::light ? kRgb : channels;
+    return std::sqrt((means[0] + means[1] + means[2] + means[3]) / std::max(std::popcount(counted), 1));
+}
+
+double texelError(ImageRole role, Channels channels, const DecodedTexel& plain, const DecodedTexel& stored)
+{
+    if (role == ImageRole::normal)
+        return angleBetween(plain, stored);
+    double error = 0;
+    if (role == ImageRole::light)
+    {
+        for (uint32_t c = 0; c < 3; ++c)
+            error = std::max(error, std::abs(stops(plain[c]) - stops(stored[c])));
+        return error;
+    }
+    const std::array<int64_t, 4> a = codes(role, plain), b = codes(role, stored);
+    for (uint32_t c = 0; c < 4; ++c)
+        if (has(channels, c))
+            error = std::max(error, static_cast<double>(std::abs(a[c] - b[c])) / kRange);
+    return error;
+}
+
+uint32_t countMeasuredMips(const ImageRecord& image)
+{
+    uint32_t count = 1;
+    while (count < std::min(kMaxMeasuredMips, image.mip_count) &&
+           std::min(mipExtent(image, count).width, mipExtent(image, count).height) >= kMinMeasuredSide)
+        ++count;
+    return count;
+}
+
+DecodedTexel applySwizzle(const DecodedTexel& stored, const std::array<Swizzle, 4>& swizzle, uint16_t one)
+{
+    DecodedTexel read;
+    for (uint32_t c = 0; c < 4; ++c)
+    {
+        const auto from = static_cast<uint32_t>(swizzle[c]);
+        if (swizzle[c] == Swizzle::identity)
+            read[c] = stored[c];
+        else if (swizzle[c] == Swizzle::zero || swizzle[c] == Swizzle::one)
+            read[c] = swizzle[c] == Swizzle::one ? one : uint16_t{0};
+        else
+            read[c] = stored[from - static_cast<uint32_t>(Swizzle::red)];
+    }
+    return read;
+}
+
+} // namespace hearth::texels
