@@ -5,6 +5,7 @@
 #include "formats/pack/instance_meshes.h"
 #include "formats/pack/pack_check.h"
 #include "pipelines/link/asset_bounds.h"
+#include "pipelines/link/image_table.h"
 #include "pipelines/link/merge_meta.h"
 #include "pipelines/link/rebase.h"
 #include "pipelines/verify/verify_pack.h"
@@ -260,14 +261,47 @@ Status writeKeyBits(ContainerWriter& writer, std::span<const Source> sources)
                : success();
 }
 
-/// Write the layers of the materials of all sources; no chunk if there are none.
-Status writeMaterialLayers(ContainerWriter& writer, std::span<const Source> sources)
+/// Write the materials of all sources with the images of the pack.
+Status writeMaterials(ContainerWriter& writer, std::span<const Source> sources, const ImageTable& images)
 {
-    const auto hasLayers = [](const Source& source) { return !source.import_part.materialLayers().empty(); };
-    return std::any_of(sources.begin(), sources.end(), hasLayers)
-               ? writeTable(writer, sources, kChunkMaterialLayers, &Source::import_part,
-                            &PackView::materialLayers)
-               : success();
+    std::vector<MaterialRecord> merged;
+    for (const Source& source : sources)
+        for (MaterialRecord record : source.import_part.materials())
+        {
+            rebase(record, source.offsets);
+            for (TextureRef MaterialRecord::*const texture : kMaterialTextureFields)
+                (record.*texture).image = images.find((record.*texture).image);
+            merged.push_back(record);
+        }
+    return writer.addRecords<MaterialRecord>(kChunkMaterials, merged);
+}
+
+/// Write the layers of the materials of all sources; no chunk if there are none.
+Status writeMaterialLayers(ContainerWriter& writer, std::span<const Source> sources, const ImageTable& images)
+{
+    std::vector<MaterialLayersRecord> merged;
+    for (const Source& source : sources)
+        for (MaterialLayersRecord record : source.import_part.materialLayers())
+        {
+            rebase(record, source.offsets);
+            for (TextureRef MaterialLayersRecord::*const texture : kLayerTextures)
+                (record.*texture).image = images.find((record.*texture).image);
+            merged.push_back(record);
+        }
+    return merged.empty() ? success() : writer.addRecords<MaterialLayersRecord>(kChunkMaterialLayers, merged);
+}
+
+/// Write the images of the pack.
+Status writeImages(ContainerWriter& writer, std::span<const Source> sources, const ImageTable& images)
+{
+    std::vector<ImageRecord> records;
+    for (const ImagePlace& place : images.places())
+    {
+        ImageRecord record = sources[place.source].textures_part.images()[place.image];
+        rebase(record, sources[place.source].offsets);
+        records.push_back(record);
+    }
+    return writer.addRecords<ImageRecord>(kChunkImages, records);
 }
 
 /// Write the instances of all sources with the meshes that they draw: those of the source, or copies.
@@ -285,7 +319,7 @@ Status writeInstances(ContainerWriter& writer, std::span<const Source> sources)
     return writer.addRecords<InstanceRecord>(kChunkInstances, merged);
 }
 
-Status writeScene(ContainerWriter& writer, std::span<const Source> sources)
+Status writeScene(ContainerWriter& writer, std::span<const Source> sources, const ImageTable& images)
 {
     const auto write = [&]<typename T>(uint32_t type, std::span<const T> (PackView::*table)() const)
     { return writeTable(writer, sources, type, &Source::import_part, table); };
@@ -294,9 +328,9 @@ Status writeScene(ContainerWriter& writer, std::span<const Source> sources)
     HEARTH_TRY(write(kChunkCameras, &PackView::cameras));
     HEARTH_TRY(write(kChunkLights, &PackView::lights));
     HEARTH_TRY(write(kChunkShadowSpheres, &PackView::shadowSpheres));
-    HEARTH_TRY(write(kChunkMaterials, &PackView::materials));
-    HEARTH_TRY(writeMaterialLayers(writer, sources));
-    HEARTH_TRY(writeTable(writer, sources, kChunkImages, &Source::textures_part, &PackView::images));
+    HEARTH_TRY(writeMaterials(writer, sources, images));
+    HEARTH_TRY(writeMaterialLayers(writer, sources, images));
+    HEARTH_TRY(writeImages(writer, sources, images));
     HEARTH_TRY(write(kChunkSkins, &PackView::skins));
     HEARTH_TRY(write(kChunkJoints, &PackView::joints));
     HEARTH_TRY(write(kChunkAnimations, &PackView::animations));
@@ -450,6 +484,20 @@ Status copyChunks(ContainerWriter& writer, const PackView& part, uint32_t type, 
     return success();
 }
 
+/// Copy the texels of the images of the pack as they are stored.
+Status copyImages(ContainerWriter& writer, std::span<const Source> sources, const ImageTable& images)
+{
+    for (uint32_t i = 0; i < images.places().size(); ++i)
+    {
+        const ImagePlace& place = images.places()[i];
+        const ContainerReader& part = sources[place.source].textures_part.container();
+        if (const ChunkEntry* const entry = part.find(kChunkImageData, place.image))
+            HEARTH_TRY(writer.addStored({.type = kChunkImageData, .index = i, .version = entry->version},
+                                        *entry, part.stored(*entry)));
+    }
+    return success();
+}
+
 /// Return the one table that all parts have; empty if there are no parts.
 Result<std::vector<SpecularTableRecord>> readSpecular(std::span<const std::string> paths)
 {
@@ -499,7 +547,11 @@ Status writePack(const std::string& path, std::span<const Source> sources,
     HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer, ContainerWriter::create(path, ContainerKind::pack));
     HEARTH_TRY(writeMeta(writer, sources, bricks, skipped, path));
     HEARTH_TRY(writeStrings(writer, sources));
-    HEARTH_TRY(writeScene(writer, sources));
+    std::vector<const PackView*> textures;
+    for (const Source& source : sources)
+        textures.push_back(&source.textures_part);
+    const ImageTable images(textures);
+    HEARTH_TRY(writeScene(writer, sources, images));
     HEARTH_TRY(writeAssets(writer, sources));
     HEARTH_TRY(writeExtras(writer, sources));
     HEARTH_TRY(writeMeshes(writer, sources));
@@ -511,8 +563,7 @@ Status writePack(const std::string& path, std::span<const Source> sources,
     if (bricks && !bricks->brickGrid().empty())
         HEARTH_TRY(writeBricks(writer, *bricks));
     HEARTH_TRY(writePages(writer, sources));
-    for (const Source& source : sources)
-        HEARTH_TRY(copyChunks(writer, source.textures_part, kChunkImageData, source.offsets.images));
+    HEARTH_TRY(copyImages(writer, sources, images));
     return writer.finish();
 }
 
