@@ -1,0 +1,202 @@
+// hearth_measure_textures: compression of real textures by measured error, beside one footprint for all.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/command_line/command_line.h"
+#include "cook/texels/role.h"
+#include "cook/texels/search.h"
+#include "formats/base/program.h"
+#include "formats/pack/image_error.h"
+#include "tests/bench/aims.h"
+
+#include <algorithm>
+#include <ctime>
+#include <fmt/format.h>
+#include <map>
+
+namespace
+{
+
+using namespace hearth;
+using namespace hearth::formats;
+using namespace hearth::texels;
+
+double processorSeconds()
+{
+    timespec now{};
+    ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// Sums over the images of a role.
+struct RoleSums
+{
+    uint32_t images = 0, missed = 0;
+    uint64_t plain_bytes = 0, bytes = 0, fixed_bytes = 0;
+    double worst = 0, fixed_worst = 0;
+    double mean = 0, fixed_mean = 0; ///< squares
+};
+
+/// Processor time of images of one size.
+struct Times
+{
+    uint32_t images = 0;
+    double encode = 0;
+    double search = 0;
+};
+
+struct Measured
+{
+    std::map<std::string_view, RoleSums> roles;
+    std::map<uint32_t, Times> times; ///< [side]: of colours with 1024 and 2048 texels a side
+};
+
+Result<PackView> openPart(const std::string& path)
+{
+    HEARTH_ASSIGN_OR_RETURN(ContainerReader reader, ContainerReader::open(path, Check::structure));
+    return PackView::read(std::move(reader));
+}
+
+/// Return the fixed footprint that a role is compared with: 6x6, of normals 4x4.
+const Candidate& findFixed(std::span<const Candidate> candidates, ImageRole role)
+{
+    const uint32_t side = role == ImageRole::normal ? 4 : 6;
+    return *std::ranges::find_if(candidates,
+                                 [&](const Candidate& candidate)
+                                 {
+                                     const TexelFormatTraits& traits = *candidate.traits;
+                                     return traits.family == TexelFamily::astc &&
+                                            traits.block_width == side && traits.block_height == side;
+                                 });
+}
+
+void measureImage(const PlainImage& image, const std::string& name, Effort quality, Measured& result)
+{
+    const Families families{.astc = true, .etc2 = true};
+    const std::vector<Candidate> candidates = listCandidates(image, families);
+    const double start = processorSeconds();
+    const Encoding found =
+        encodeForTarget(image, candidates, findTarget(image.role, quality), quality, false);
+    const double searched = processorSeconds() - start;
+    const double again = processorSeconds();
+    (void)encodeImage(image, found.candidate, quality);
+    const double encoded = processorSeconds() - again;
+    const Candidate& fixed = findFixed(candidates, image.role);
+    const std::vector<std::byte> fixed_texels = encodeImage(image, fixed, quality);
+    const ImageError fixed_error = measureError(image, {}, fixed, fixed_texels);
+
+    fmt::print("{:40.40} {:>5} x {:<5} {:9} {:16} {:>9} bytes {:>13}, smooth {:>13}{}; fixed {:>9} {:>13}\n",
+               name, image.record.width, image.record.height,
+               imageRoleName(static_cast<uint32_t>(image.role)), found.candidate.traits->name,
+               found.texels.size(), imageErrorText(image.role, found.error.error),
+               imageErrorText(image.role, found.error.smooth), found.share > 1 ? " MISSED" : "",
+               fixed_texels.size(), imageErrorText(image.role, fixed_error.error));
+    RoleSums& sums = result.roles[imageRoleName(static_cast<uint32_t>(image.role))];
+    ++sums.images;
+    sums.missed += found.share > 1;
+    sums.plain_bytes += image.mips.size();
+    sums.bytes += found.texels.size();
+    sums.fixed_bytes += fixed_texels.size();
+    sums.worst = std::max(sums.worst, found.error.error);
+    sums.fixed_worst = std::max(sums.fixed_worst, fixed_error.error);
+    sums.mean += found.error.error * found.error.error;
+    sums.fixed_mean += fixed_error.error * fixed_error.error;
+    const uint32_t side = std::max(image.record.width, image.record.height);
+    if (image.role == ImageRole::color && image.record.width == image.record.height &&
+        (side == 1024 || side == 2048))
+    {
+        Times& times = result.times[side];
+        ++times.images;
+        times.encode += encoded;
+        times.search += searched - encoded;
+    }
+}
+
+Status measureSource(const std::string& stem, Effort quality, uint32_t max_images, Measured& result)
+{
+    HEARTH_ASSIGN_OR_RETURN(const PackView import_part, openPart(stem + ".import.part"));
+    HEARTH_ASSIGN_OR_RETURN(const PackView textures, openPart(stem + ".textures.part"));
+    const auto uses =
+        imageUses(import_part.materials(), import_part.materialLayers(), import_part.images().size());
+    for (uint32_t i = 0; i < std::min<size_t>(textures.images().size(), max_images); ++i)
+    {
+        HEARTH_ASSIGN_OR_RETURN(const ChunkData data, textures.imageData(i));
+        PlainImage image{.record = textures.images()[i], .mips = data.bytes()};
+        const ImageReads reads = findReads(image.record, uses[i], import_part.materials());
+        image.role = reads.role;
+        image.channels = reads.channels;
+        if (image.role != ImageRole::light && std::min(image.record.width, image.record.height) >= 128 &&
+            (image.record.flags & kImagePlaceholder) == 0)
+            measureImage(image,
+                         stem.substr(stem.rfind('/') + 1) + " " +
+                             std::string(import_part.text(image.record.name)),
+                         quality, result);
+    }
+    return success();
+}
+
+void printRoles(const Measured& result)
+{
+    fmt::print("\n{:10} {:>6} {:>6} {:>12} {:>12} {:>12} {:>6} {:>13} {:>13}\n", "role", "images", "missed",
+               "plain", "bytes", "fixed", "ratio", "worst", "fixed worst");
+    for (const auto& [name, sums] : result.roles)
+    {
+        const ImageRole role = name == "normal" ? ImageRole::normal : ImageRole::color;
+        fmt::print("{:10} {:>6} {:>6} {:>12} {:>12} {:>12} {:>6.2f} {:>13} {:>13}\n", name, sums.images,
+                   sums.missed, sums.plain_bytes, sums.bytes, sums.fixed_bytes,
+                   static_cast<double>(sums.bytes) / static_cast<double>(sums.fixed_bytes),
+                   imageErrorText(role, sums.worst), imageErrorText(role, sums.fixed_worst));
+    }
+}
+
+int judge(const Measured& result)
+{
+    bench::Judgement judgement("textures");
+    RoleSums others, normals;
+    for (const auto& [name, sums] : result.roles)
+    {
+        RoleSums& sum = name == "normal" ? normals : others;
+        sum.images += sums.images;
+        sum.bytes += sums.bytes;
+        sum.fixed_bytes += sums.fixed_bytes;
+        sum.worst = std::max(sum.worst, sums.worst);
+        sum.fixed_worst = std::max(sum.fixed_worst, sums.fixed_worst);
+    }
+    const auto ratio = [](uint64_t a, uint64_t b) { return static_cast<double>(a) / static_cast<double>(b); };
+    judgement.record("bytes / those of 6x6, colours and data", ratio(others.bytes, others.fixed_bytes));
+    judgement.record("worst error / that of 6x6, colours and data", others.worst / others.fixed_worst);
+    judgement.record("bytes / those of 4x4, normals", ratio(normals.bytes, normals.fixed_bytes));
+    for (const auto& [side, figure] :
+         {std::pair(1024u, "search / one encoding, 1024"), std::pair(2048u, "search / one encoding, 2048")})
+        if (const auto found = result.times.find(side); found != result.times.end())
+            judgement.record(figure, found->second.search / found->second.encode);
+    return judgement.finish();
+}
+
+int program(int argc, char** argv)
+{
+    cli::CommandLine app(
+        "Compresses textures by their measured error, beside ASTC 6x6 (normals 4x4) for all.");
+    std::vector<std::string> stems;
+    std::string quality = "normal";
+    uint32_t max_images = 1000;
+    app.addOption("source", stems, "STEM of STEM.import.part and STEM.textures.part").required();
+    app.addOption("--quality", quality, "draft, normal or high");
+    app.addOption("--max-images", max_images, "images of a source that are measured");
+    if (const std::optional<int> exit_code = app.parse(argc, argv))
+        return *exit_code;
+    const Effort effort = quality == "draft"  ? Effort::draft
+                          : quality == "high" ? Effort::high
+                                              : Effort::normal;
+    Measured result;
+    for (const std::string& stem : stems)
+        if (const Status measured = measureSource(stem, effort, max_images, result); !measured.ok())
+            return reportFailure(measured.error());
+    printRoles(result);
+    return judge(result);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    return runProgram("hearth_measure_textures", [&] { return program(argc, argv); });
+}
