@@ -60,31 +60,6 @@ void resolve(const Bc6hMode& mode, bool is_signed, Variables& variables)
             value = extendSign(value, width);
 }
 
-int32_t unquantize(int32_t value, uint32_t bits, bool is_signed)
-{
-    if (!is_signed)
-    {
-        if (bits >= 15 || value == 0)
-            return value;
-        return value == (1 << bits) - 1 ? 0xFFFF : ((value << 15) + 0x4000) >> (bits - 1);
-    }
-    if (bits >= 16 || value == 0)
-        return value;
-    const int32_t size = value < 0 ? -value : value;
-    const int32_t result = size >= (1 << (bits - 1)) - 1 ? 0x7FFF : ((size << 15) + 0x4000) >> (bits - 1);
-    return value < 0 ? -result : result;
-}
-
-/// Return the half float of an interpolated value: sizes are scaled below those of infinity.
-uint16_t makeHalf(int32_t value, bool is_signed)
-{
-    if (!is_signed)
-        return static_cast<uint16_t>(value * 31 >> 6);
-    if (value < 0)
-        return static_cast<uint16_t>(-value * 31 >> 5 | 0x8000);
-    return static_cast<uint16_t>(value * 31 >> 5);
-}
-
 } // namespace
 
 void decodeBc6hBlock(bool is_signed, std::span<const std::byte, 16> block, std::span<DecodedTexel, 16> texels)
@@ -102,7 +77,7 @@ void decodeBc6hBlock(bool is_signed, std::span<const std::byte, 16> block, std::
     Variables ends = readVariables(*mode, bits);
     resolve(*mode, is_signed, ends);
     for (int32_t& value : ends)
-        value = unquantize(value, mode->endpoint_bits, is_signed);
+        value = unquantizeBc6h(value, mode->endpoint_bits, is_signed);
 
     const uint32_t partition = mode->subsets == 2 ? bits.read(5) : 0;
     const uint32_t width = mode->subsets == 2 ? 3 : 4;
@@ -114,7 +89,7 @@ void decodeBc6hBlock(bool is_signed, std::span<const std::byte, 16> block, std::
         for (uint32_t channel = 0; channel < 3; ++channel)
         {
             const uint32_t first = 6 * subset + channel;
-            texels[t][channel] = makeHalf(bptcInterpolate(ends[first], ends[first + 3], weight), is_signed);
+            texels[t][channel] = bc6hHalf(bptcInterpolate(ends[first], ends[first + 3], weight), is_signed);
         }
         texels[t][3] = kHalfOne;
     }

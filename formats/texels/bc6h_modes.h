@@ -1,4 +1,4 @@
-// Layouts of the modes of BC6H.
+// Layouts of the modes of BC6H, and the meaning of its numbers.
 // Source: Khronos Data Format Specification 1.3, chapter 20 ("BPTC Compressed Texture Image Formats").
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
@@ -115,5 +115,31 @@ constexpr std::array<Bc6hMode, 14> bc6hModes()
 inline constexpr std::array<Bc6hMode, 14> kBc6hModes = detail::bc6hModes();
 
 // clang-format on
+
+/// Spread an endpoint's value of `bits` bits over 16 bits.
+constexpr int32_t unquantizeBc6h(int32_t value, uint32_t bits, bool is_signed)
+{
+    if (!is_signed)
+    {
+        if (bits >= 15 || value == 0)
+            return value;
+        return value == (1 << bits) - 1 ? 0xFFFF : ((value << 15) + 0x4000) >> (bits - 1);
+    }
+    if (bits >= 16 || value == 0)
+        return value;
+    const int32_t size = value < 0 ? -value : value;
+    const int32_t result = size >= (1 << (bits - 1)) - 1 ? 0x7FFF : ((size << 15) + 0x4000) >> (bits - 1);
+    return value < 0 ? -result : result;
+}
+
+/// Return the half float of an interpolated value: sizes are scaled below those of infinity.
+constexpr uint16_t bc6hHalf(int32_t value, bool is_signed)
+{
+    if (!is_signed)
+        return static_cast<uint16_t>(value * 31 >> 6);
+    if (value < 0)
+        return static_cast<uint16_t>(-value * 31 >> 5 | 0x8000);
+    return static_cast<uint16_t>(value * 31 >> 5);
+}
 
 } // namespace hearth::formats

@@ -56,6 +56,8 @@ const std::vector<Layer>& layers()
          {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/mesh", "cook/pages",
           "cook/sampling", "cook/animation_bounds"}},
 
+        {"cook/texels/bc", {"formats", "cook/texels"}},
+
         {"cook/clusters/core", {"formats", "cook/mesh", "cook/animation_bounds"}},
         {"cook/clusters/partition", {"formats", "cook/mesh", "cook/clusters/core"}},
         {"cook/clusters/simplify", {"formats", "cook/mesh", "cook/clusters/core"}},
