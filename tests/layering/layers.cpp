@@ -109,6 +109,7 @@ const std::vector<Layer>& layers()
         // from parts to a pack, and the build graph
         {"pipelines/verify", {"formats", "cook/json"}},
         {"pipelines/link", {"formats", "cook/command_line", "cook/json", "pipelines/verify"}},
+        {"pipelines/texture_files", {"formats"}},
         {"pipelines/schemas", {}},
         {"pipelines/cache", {"formats", "cook/tools"}},
         {"pipelines/settings", {"formats", "cook/json", "cook/tools", "pipelines/cache"}},
@@ -204,8 +205,10 @@ const std::vector<Library>& libraries()
     static const std::vector<Library> list = {
         {"xxhash.h", {"formats/"}},
         {"openssl/", {"cook/tools/"}},
-        {"curl/", {"pipelines/cache/"}},                           // loaded, not linked
-        {"zstd.h", {"formats/", "cook/clusters/", "cook/pages/"}}, // pages are compressed in parallel
+        {"curl/", {"pipelines/cache/"}}, // loaded, not linked
+        {"zstd.h",
+         {"formats/", "cook/clusters/", "cook/pages/", // pages are compressed in parallel
+          "pipelines/texture_files/"}},
         {"vulkan/", {"runtime/gpu/", "runtime/c/", "runtime/viewer/"}, true},
         {"SDL.h", {"runtime/viewer/window/"}},
         {"SDL_vulkan.h", {"runtime/viewer/window/"}},
