@@ -57,6 +57,7 @@ const std::vector<Layer>& layers()
           "cook/sampling", "cook/animation_bounds"}},
 
         {"cook/texels/bc", {"formats", "cook/texels"}},
+        {"cook/texels/etc2", {"formats", "cook/texels"}},
 
         {"cook/clusters/core", {"formats", "cook/mesh", "cook/animation_bounds"}},
         {"cook/clusters/partition", {"formats", "cook/mesh", "cook/clusters/core"}},
