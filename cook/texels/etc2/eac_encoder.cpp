@@ -170,7 +170,7 @@ struct EacTrials
 EacTrials findTrials(Effort effort)
 {
     return effort == Effort::high     ? EacTrials{16, 4, 1, 12, 7}
-           : effort == Effort::normal ? EacTrials{8, 2, 2, 10, 10}
+           : effort == Effort::normal ? EacTrials{8, 1, 1, 9, 8}
                                       : EacTrials{2, 1, 2, 9, 14};
 }
 
