@@ -127,6 +127,45 @@ void addAstc(const PlainImage& image, const ChannelSplit& split, std::vector<Can
     }
 }
 
+/// Formats of a family with blocks of 4 x 4 texels, by what they store.
+struct BlockFormats
+{
+    TexelFormat one, two;          ///< numbers
+    TexelFormat color, color_srgb; ///< without alpha
+    TexelFormat alpha, alpha_srgb; ///< with alpha
+};
+
+constexpr BlockFormats kEtc2{TexelFormat::eac_r11_unorm,    TexelFormat::eac_rg11_unorm,
+                             TexelFormat::etc2_rgb8_unorm,  TexelFormat::etc2_rgb8_srgb,
+                             TexelFormat::etc2_rgba8_unorm, TexelFormat::etc2_rgba8_srgb};
+constexpr BlockFormats kBc{TexelFormat::bc4_unorm,    TexelFormat::bc5_unorm, TexelFormat::bc1_rgb_unorm,
+                           TexelFormat::bc1_rgb_srgb, TexelFormat::bc3_unorm, TexelFormat::bc3_srgb};
+
+/// Return true if alpha is among the stored channels.
+bool storesAlpha(const ChannelSplit& split)
+{
+    return split.stored.back() == 3;
+}
+
+void addBlockFormats(const PlainImage& image, const ChannelSplit& split, const BlockFormats& formats,
+                     std::vector<Candidate>& candidates)
+{
+    const bool is_srgb = isColor(image) && !isLinear(split);
+    if (!is_srgb && split.stored.size() <= 2)
+        candidates.push_back(layOutInOrder(split, split.stored.size() == 1 ? formats.one : formats.two));
+    else if (storesAlpha(split))
+        candidates.push_back(layOutPlainly(split, is_srgb ? formats.alpha_srgb : formats.alpha));
+    else
+        candidates.push_back(layOutPlainly(split, is_srgb ? formats.color_srgb : formats.color));
+}
+
+void addBc7(const PlainImage& image, const ChannelSplit& split, std::vector<Candidate>& candidates)
+{
+    const bool is_srgb = isColor(image) && !isLinear(split);
+    if (is_srgb || split.stored.size() > 2)
+        candidates.push_back(layOutPlainly(split, is_srgb ? TexelFormat::bc7_srgb : TexelFormat::bc7_unorm));
+}
+
 } // namespace
 
 bool addFamily(std::string_view name, Families& families)
@@ -146,8 +185,21 @@ std::vector<Candidate> listCandidates(const PlainImage& image, const Families& f
 {
     std::vector<Candidate> candidates;
     if (image.role == ImageRole::light)
-        return {plainCandidate(image)};
+    {
+        if (families.bc)
+            candidates.push_back(
+                {.traits = &texelTraits(TexelFormat::bc6h_ufloat), .stored = {0, 1, 2, kStoredOne}});
+        candidates.push_back(plainCandidate(image));
+        return candidates;
+    }
     const ChannelSplit split = splitChannels(image);
+    if (families.etc2)
+        addBlockFormats(image, split, kEtc2, candidates);
+    if (families.bc)
+    {
+        addBlockFormats(image, split, kBc, candidates);
+        addBc7(image, split, candidates);
+    }
     if (families.astc)
         addAstc(image, split, candidates);
     std::ranges::stable_sort(candidates, {}, &Candidate::bitsPerTexel);

@@ -2,6 +2,7 @@
 #include "cook/texels/encode.h"
 
 #include "cook/texels/astc_encoder.h"
+#include "cook/texels/block_encoder.h"
 #include "cook/texels/plain_encoder.h"
 #include "formats/base/assert.h"
 #include "formats/base/half.h"
@@ -152,10 +153,14 @@ std::vector<std::byte> encodeTexels(const Candidate& candidate, const StoredTexe
         return encodeAstc(candidate, texels, effort);
     case TexelFamily::plain:
         return encodePlain(*candidate.traits, texels.texels);
-    default:
-        HEARTH_ASSERT(false);
-        return {};
+    case TexelFamily::etc2:
+    case TexelFamily::bc:
+        return encodeBlocks(candidate, texels, effort);
+    case TexelFamily::astc_hdr:
+        break;
     }
+    HEARTH_ASSERT(false); // no candidate has it
+    return {};
 }
 
 std::vector<std::byte> encodeImage(const PlainImage& image, const Candidate& candidate, Effort effort)

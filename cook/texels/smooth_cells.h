@@ -1,5 +1,5 @@
-// Finds the smooth areas of an image, where the eye sees errors that it would not see elsewhere: seams between
-// blocks, steps in a gradient.
+// Finds the smooth areas of an image, where the eye sees errors that it would not see elsewhere: seams
+// between blocks, steps in a gradient.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

@@ -15,8 +15,8 @@ namespace hearth::textures
 uint32_t fullMipCount(uint32_t width, uint32_t height);
 
 /// Build all mips in mipFormat(), finest first, tightly packed. The finest is `texels`, unchanged or with its
-/// channels rounded to 8 bits; normals are made unit, with z from 0 on. Every other mip represents `texels`: nothing is rounded in between. Same bytes
-/// for any number of threads.
+/// channels rounded to 8 bits; normals are made unit, with z from 0 on. Every other mip represents `texels`:
+/// nothing is rounded in between. Same bytes for any number of threads.
 ///
 /// image     width, height, format, flags and alpha_cutoff are read; mip_count is not
 /// texels    width * height texels of that format (asserted)

@@ -50,8 +50,8 @@ Texel<T> readTexel(std::span<const std::byte> row, size_t i)
     return texel;
 }
 
-/// Decode a normal: 0 to the largest number means -1 to 1, as in glTF. It is on the front side of the surface,
-/// and unit: z is made of x and y later.
+/// Decode a normal: 0 to the largest number means -1 to 1, as in glTF. It is on the front side of the
+/// surface, and unit: z is made of x and y later.
 template <typename T>
 Float3 decodeNormal(const Texel<T>& texel)
 {

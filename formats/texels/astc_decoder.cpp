@@ -17,7 +17,7 @@ namespace hearth::formats
 namespace
 {
 
-constexpr uint16_t kHalfOne = 0x3C00, kHalfMaxBits = 0x7BFF, kHalfNan = 0xFFFF;
+constexpr uint16_t kAstcHalfOne = 0x3C00, kAstcHalfMax = 0x7BFF, kAstcHalfNan = 0xFFFF;
 
 constexpr uint32_t kMaxAstcPartitions = 4;
 
@@ -48,7 +48,7 @@ constexpr auto kColourRanges = []
 void fillErrorColour(TexelCoding coding, std::span<DecodedTexel> texels)
 {
     const DecodedTexel magenta = {0xFFFF, 0, 0xFFFF, 0xFFFF};
-    const DecodedTexel nan = {kHalfNan, kHalfNan, kHalfNan, kHalfNan};
+    const DecodedTexel nan = {kAstcHalfNan, kAstcHalfNan, kAstcHalfNan, kAstcHalfNan};
     std::fill(texels.begin(), texels.end(), coding == TexelCoding::float_value ? nan : magenta);
 }
 
@@ -56,7 +56,7 @@ void fillErrorColour(TexelCoding coding, std::span<DecodedTexel> texels)
 uint16_t halfFromUnorm(uint32_t value)
 {
     if (value == 0xFFFF)
-        return kHalfOne;
+        return kAstcHalfOne;
     if (value < 4) // below 2^-14
         return static_cast<uint16_t>(value << 8);
     const auto exponent = static_cast<uint32_t>(std::bit_width(value)) - 1;
@@ -69,7 +69,7 @@ uint16_t halfFromLogarithm(uint32_t value)
 {
     const uint32_t exponent = value >> 11, low = value & 0x7FF;
     const uint32_t mantissa = low < 512 ? 3 * low : low < 1536 ? 4 * low - 512 : 5 * low - 2048;
-    return static_cast<uint16_t>(std::min<uint32_t>(exponent << 10 | mantissa >> 3, kHalfMaxBits));
+    return static_cast<uint16_t>(std::min<uint32_t>(exponent << 10 | mantissa >> 3, kAstcHalfMax));
 }
 
 /// Return the channel of a format of an LDR value of 16 bits.
@@ -181,8 +181,8 @@ WideEndpoints widenEndpoints(const AstcEndpoints& endpoints, TexelCoding coding)
     return wide;
 }
 
-/// Decode the endpoints of all partitions. HDR endpoints in an LDR format are magenta: the other partitions of
-/// their block are as usual. Returns false if too few bits are free for them.
+/// Decode the endpoints of all partitions. HDR endpoints in an LDR format are magenta: the other partitions
+/// of their block are as usual. Returns false if too few bits are free for them.
 bool decodeEndpoints(const AstcBits& bits, const BlockLayout& layout, TexelCoding coding,
                      std::array<WideEndpoints, kMaxAstcPartitions>& endpoints)
 {

@@ -17,8 +17,8 @@ using EndpointColour = std::array<int32_t, 4>;
 constexpr int32_t kHdrMax = 0xFFF;
 constexpr int32_t kHdrOne = 0x780;
 
-/// Rule for a range with digits: C of the specification, and its B as a sum of the bits above the lowest times
-/// `repeat` and the same bits shifted down.
+/// Rule for a range with digits: C of the specification, and its B as a sum of the bits above the lowest
+/// times `repeat` and the same bits shifted down.
 struct Unquantization
 {
     uint32_t digit_base, bits, c, repeat, down;

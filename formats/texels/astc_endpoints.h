@@ -1,5 +1,6 @@
 // Endpoints of an ASTC block: the two colours that the texels of a partition lie between.
-// Source: Khronos Data Format Specification, sections "Endpoint Unquantization" and "Endpoint Interpretation".
+// Source: Khronos Data Format Specification, sections "Endpoint Unquantization" and "Endpoint
+// Interpretation".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

@@ -1,5 +1,5 @@
 // Integer sequences of ASTC: values of a few bits each, packed with trits or quints.
-// Source: Khronos Data Format Specification, sections "Integer Sequence Encoding" and "Endpoint Unquantization".
+// Source: Khronos Data Format Specification, section "Integer Sequence Encoding".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

@@ -24,11 +24,11 @@ struct AstcGrid
     size_t bits;     ///< of all weights, 24 to 96: the last bits of the block
 };
 
-/// Read the block mode: the lowest 11 bits of a block that is no void extent. Nothing if it is reserved or its
-/// grid is illegal for the footprint.
+/// Read the block mode: the lowest 11 bits of a block that is no void extent. Nothing if it is reserved or
+/// its grid is illegal for the footprint.
 std::optional<AstcGrid> readAstcGrid(uint32_t block_mode, uint32_t block_width, uint32_t block_height);
 
-/// Decode the weight of each texel: 0 to 64, by plane. The second plane is untouched where there is one plane.
+/// Decode the weight of each texel: 0 to 64, by plane. The second plane is untouched where there is one.
 /// weights  [plane][block_width * block_height], rows from top to bottom
 void decodeAstcWeights(const AstcBits& block, const AstcGrid& grid, uint32_t block_width,
                        uint32_t block_height,

@@ -21,7 +21,8 @@ struct SourceParts
 
 /// Write the pack of all sources, their scenes side by side: the records of each source follow the previous
 /// source's, with rebased indices. One source is the merge of one. Texels and pages are copied as they are
-/// stored, a piece at a time; equal images once. Groups of deformed meshes get the spheres of the skinning part.
+/// stored, a piece at a time; equal images once. Groups of deformed meshes get the spheres of the skinning
+/// part.
 /// specular_parts  parts with a table of specular occlusion. A pack has one table: all parts must have the
 ///                 same. May be empty
 /// bricks_part     path of the part whose grid of bricks the pack gets; empty: no bricks

@@ -15,8 +15,8 @@ namespace hearth::texture_files
 /// Colours have the primaries of BT.709, and straight alpha.
 std::vector<uint32_t> describeTexels(const formats::TexelFormatTraits& traits);
 
-/// Return the size in bytes of the numbers that a texel is made of, as typeSize of KTX2: 1 if the order of bytes
-/// does not matter.
+/// Return the size in bytes of the numbers that a texel is made of, as typeSize of KTX2: 1 if the order of
+/// bytes does not matter.
 uint32_t typeBytes(const formats::TexelFormatTraits& traits);
 
 } // namespace hearth::texture_files

@@ -72,7 +72,8 @@ protected:
         PackModel model = smallPack();
         model.meta = importMeta("small.gltf");
         writeParts(model, programs.path(), "small");
-        for (const char* cooker : {"import", "textures", "clusters", "skinning"})
+        fs::copy(programs / "small.textures.part", programs / "small.texels.part");
+        for (const char* cooker : {"import", "textures", "texels", "clusters", "skinning"})
         {
             std::string script = kScript;
             replaceAll(script, "PROCESSES", programs / "processes");
@@ -132,12 +133,12 @@ TEST_F(Batches, aFewProcessesRunManyActions)
     EXPECT_EQ(end.exit_code, 0) << end.err;
     EXPECT_TRUE(command::verifyFile(folder / "a.hearth").ok());
     EXPECT_EQ(folder.list(), std::vector<std::string>{"a.hearth"});
-    EXPECT_EQ(countOccurrences(end.err, "    4 cookers  "), 12u) << end.err;
+    EXPECT_EQ(countOccurrences(end.err, "    5 cookers  "), 12u) << end.err;
     const std::map<std::string, std::string> of_action = eventsOfActions();
-    EXPECT_EQ(of_action.size(), 4 * 12u + 1) << "each source's, and the link";
+    EXPECT_EQ(of_action.size(), 5 * 12u + 1) << "each source's, and the link";
     for (const auto& [action, events] : of_action)
         EXPECT_EQ(events, "start end cooked") << action;
-    for (const char* cooker : {"import", "textures", "clusters", "skinning"})
+    for (const char* cooker : {"import", "textures", "texels", "clusters", "skinning"})
     {
         EXPECT_GE(processes(cooker), 1u);
         EXPECT_LE(processes(cooker), 2u) << cooker;
@@ -148,7 +149,7 @@ TEST_F(Batches, aFewProcessesRunManyActions)
 TEST_F(Batches, aHandfulRunsAlone)
 {
     EXPECT_EQ(cook({"a.gltf", "b.gltf"}).exit_code, 0);
-    EXPECT_EQ(processes("alone"), 8u);
+    EXPECT_EQ(processes("alone"), 10u);
     EXPECT_EQ(processes("import"), 0u);
 }
 
@@ -159,7 +160,7 @@ TEST_F(Batches, whatIsLargeRunsAlone)
     folder.write("large.gltf", std::string(size_t{12} << 20, ' '));
     sources.insert(sources.begin() + 3, "large.gltf");
     EXPECT_EQ(cook(sources).exit_code, 0);
-    EXPECT_EQ(processes("alone"), 3u); // skinning is fast for any source, so it is still in batches
+    EXPECT_EQ(processes("alone"), 4u); // skinning is fast for any source, so it is still in batches
     EXPECT_LE(processes("import"), 2u);
 }
 
@@ -174,7 +175,7 @@ TEST_F(Batches, aCrashCostsTheActionThatCrashed)
                            "contract broken [E7001]"),
               std::string::npos)
         << end.err;
-    EXPECT_EQ(countOccurrences(end.err, "    4 cookers  "), 11u) << end.err;
+    EXPECT_EQ(countOccurrences(end.err, "    5 cookers  "), 11u) << end.err;
     EXPECT_EQ(folder.list(), std::vector<std::string>{});
 }
 
@@ -198,7 +199,7 @@ TEST_F(Batches, eventsAreThoseOfActionsAlone)
     sources[2] = "crash.gltf"; // sources after it are restarted
     EXPECT_EQ(cook(sources, with_events).exit_code, 70);
     const std::map<std::string, std::string> of_action = eventsOfActions();
-    EXPECT_EQ(of_action.size(), 12u + 3 * 11u);
+    EXPECT_EQ(of_action.size(), 12u + 4 * 11u);
     for (const auto& [action, events] : of_action)
         EXPECT_EQ(events, action == "import crash.gltf" ? "start end failed" : "start end cooked") << action;
 }

@@ -118,12 +118,12 @@ TEST_F(Cook, progressIsABarOrLinesOrNothing)
     };
     const std::string plain = err("plain");
     EXPECT_EQ(countOccurrences(plain, "source  "), 1u) << plain;
-    EXPECT_EQ(countOccurrences(plain, " 4 cookers  a.gltf\n"), 1u) << plain;
+    EXPECT_EQ(countOccurrences(plain, " 5 cookers  a.gltf\n"), 1u) << plain;
     EXPECT_EQ(countOccurrences(plain, "import "), 0u) << "no line for each cooker: " << plain;
     EXPECT_EQ(countOccurrences(err("auto"), "source  "), 1u) << "no terminal";
     EXPECT_EQ(countOccurrences(err("none"), "source  "), 0u);
     const std::string bar = err("bar");
-    EXPECT_NE(bar.find("\r\033[K[                        ] 0/5  import a.gltf"), std::string::npos) << bar;
+    EXPECT_NE(bar.find("\r\033[K[                        ] 0/6  import a.gltf"), std::string::npos) << bar;
     EXPECT_NE(bar.rfind("\r\033[Kcooked"), std::string::npos) << "taken away before the last line: " << bar;
     EXPECT_NE(cook({"malformed.gltf", "-o", "b.hearth", "--color", "always"}, {"NO_COLOR=1", "TMPDIR="})
                   .err.find("malformed.gltf|/meshes/0: \033[1;31merror:\033[0m is bad"),

@@ -52,18 +52,20 @@ TEST_F(Cook, reportsWhatItDid)
     EXPECT_EQ(totals["bytes_out"], folder.read("a.hearth").size());
     EXPECT_EQ(totals["bytes_in"], 100);
     EXPECT_EQ(totals["cooked"], 1);
-    EXPECT_EQ(totals["actions"]["cooked"], 5);
+    EXPECT_EQ(totals["actions"]["cooked"], 6);
     EXPECT_GT(totals["sizes"]["geometry"].get<double>(), 0);
     const auto& asset = report["assets"][0];
     EXPECT_EQ(asset["source"], "warning.gltf");
     EXPECT_EQ(asset["state"], "cooked");
-    EXPECT_EQ(asset["stages"].size(), 4u);
+    EXPECT_EQ(asset["stages"].size(), 5u);
     EXPECT_GE(asset["stages"][1]["start_s"].get<double>(), asset["stages"][0]["start_s"].get<double>());
     EXPECT_EQ(asset["clusters"]["meshes"][0]["name"], "strip");
     EXPECT_EQ(asset["clusters"]["totals"]["triangles"], 8);
     EXPECT_EQ(asset["textures"][0]["name"], "bark");
+    EXPECT_EQ(asset["textures"][0]["format"], "astc-6x6-srgb") << "as it is in the pack";
+    EXPECT_EQ(asset["textures"][0]["encoding"]["role"], "color");
     EXPECT_EQ(asset["sizes"]["geometry"], 70);
-    EXPECT_EQ(asset["sizes"]["textures"], 40);
+    EXPECT_EQ(asset["sizes"]["textures"], 30);
     EXPECT_EQ(asset["messages"].size(), 1u) << "the import's own list, not its lines as well";
     EXPECT_EQ(asset["messages"][0]["pointer"], "/extras");
     EXPECT_EQ(asset["dropped"][0], "extras");
@@ -92,7 +94,7 @@ TEST_F(Cook, reportsRootCausesAndWhatDependsOnThem)
     EXPECT_EQ(failure["text"], "is bad");
     EXPECT_EQ(failure["hint"], "mend it");
     EXPECT_EQ(failure["stage"], "import");
-    EXPECT_EQ(failure["not_made"].size(), 4u) << "three cookers of the source, and the link";
+    EXPECT_EQ(failure["not_made"].size(), 5u) << "four cookers of the source, and the link";
     EXPECT_NE(report["error"].get<std::string>().find("E1101"), std::string::npos);
 }
 

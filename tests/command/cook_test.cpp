@@ -27,7 +27,7 @@ TEST_F(Cook, makesAPackAndLeavesNothingElse)
         EXPECT_EQ(countOccurrences(end.err, line), 1u) << end.err;
     EXPECT_EQ(end.err.find('\033'), std::string::npos) << "colour without a terminal";
     const std::string all = "\n" + cook({"a.gltf", "-v", "-o", "a.hearth", "--no-cache"}).err;
-    for (const char* stage : {"import", "textures", "clusters", "skinning", "link", "cooked"})
+    for (const char* stage : {"import", "textures", "texels", "clusters", "skinning", "link", "cooked"})
         EXPECT_EQ(countOccurrences(all, "\n" + std::string(stage) + " "), 1u) << all;
 }
 

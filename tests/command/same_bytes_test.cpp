@@ -81,7 +81,7 @@ TEST_F(SameBytes, forAnyOrder)
     Sandbox programs;
     fs::copy(HEARTH_BIN "/hearth", programs / "hearth");
     for (const char* cooker : {"bricks", "clusters", "import", "link", "neighbours", "skinning", "specular",
-                               "textures", "visibility"})
+                               "texels", "textures", "visibility"})
     {
         std::string script = kDawdler;
         replaceAll(script, "COOKER", cooker);

@@ -29,7 +29,7 @@ namespace
 
 namespace fs = std::filesystem;
 
-const std::vector<std::string> kAll{"import", "textures", "clusters", "skinning", "link"};
+const std::vector<std::string> kAll{"import", "textures", "texels", "clusters", "skinning", "link"};
 
 class SecondCook : public ::testing::Test
 {
@@ -61,7 +61,7 @@ protected:
         std::multiset<std::string> cookers;
         std::istringstream lines(end.err);
         for (std::string line; std::getline(lines, line);)
-            for (const char* cooker : {"import", "textures", "clusters", "skinning", "neighbours",
+            for (const char* cooker : {"import", "textures", "texels", "clusters", "skinning", "neighbours",
                                        "visibility", "specular", "link"})
                 if (line.starts_with(std::string(cooker) + " ") && line.find(" s ") != std::string::npos)
                     cookers.insert(std::string(cooker) + " " + line.substr(line.rfind(' ') + 1));
@@ -97,7 +97,7 @@ protected:
 
 TEST_F(SecondCook, runsNothingAndLeavesThePackAlone)
 {
-    EXPECT_EQ(ran(cook({"house.obj", "tree.gltf", "-o", "a.hearth"})).size(), 9u);
+    EXPECT_EQ(ran(cook({"house.obj", "tree.gltf", "-o", "a.hearth"})).size(), 11u);
     const struct stat before = look("a.hearth");
     EXPECT_TRUE(isUpToDate(cook({"house.obj", "tree.gltf", "-o", "a.hearth"})));
     // touched, but not changed
@@ -126,8 +126,8 @@ TEST_F(SecondCook, runsWhatReadAChangedFileAndNoMore)
     ran(cook({"house.obj", "tree.gltf", "-o", "a.hearth"}));
     folder.write("house.tga", tgaImage(7));
     EXPECT_EQ(ran(cook({"house.obj", "tree.gltf", "-o", "a.hearth"})),
-              (std::multiset<std::string>{"import house.obj", "textures house.obj", "clusters house.obj",
-                                          "skinning house.obj", "link a.hearth"}));
+              (std::multiset<std::string>{"import house.obj", "textures house.obj", "texels house.obj",
+                                          "clusters house.obj", "skinning house.obj", "link a.hearth"}));
     // a texture that was missing now exists
     folder.write("tree.tga", tgaImage(7));
     EXPECT_EQ(ran(cook({"house.obj", "tree.gltf", "-o", "a.hearth"})).count("import tree.gltf"), 1u);
@@ -357,7 +357,7 @@ TEST_F(SecondCook, whatFailedIsTriedAgain)
     EXPECT_NE(why.find("import     tree.gltf: it failed last time"), std::string::npos) << why;
     writeGltf(folder, "tree", 0.25F);
     const std::multiset<std::string> again = ran(cook({"tree.gltf", "house.obj", "-o", "a.hearth"}));
-    EXPECT_EQ(again.size(), 5u) << "what was cooked is not cooked again";
+    EXPECT_EQ(again.size(), 6u) << "what was cooked is not cooked again";
     EXPECT_EQ(again.count("import house.obj"), 0u);
 }
 
@@ -414,11 +414,11 @@ TEST_F(SecondCook, aDryRunWritesNothing)
     EXPECT_EQ(end.exit_code, 0);
     EXPECT_NE(end.out.find("import     house.obj: never cooked into this pack before\n"), std::string::npos)
         << end.out;
-    EXPECT_NE(end.out.find("5 of 5 cookers would run\n"), std::string::npos) << end.out;
+    EXPECT_NE(end.out.find("6 of 6 cookers would run\n"), std::string::npos) << end.out;
     EXPECT_EQ(folder.list(), files);
     EXPECT_FALSE(fs::exists(folder.cachePath()));
     const ProgramEnd plan = cook({"house.obj", "-o", "a.hearth", "-n", "--format", "json"});
-    EXPECT_EQ(Json::parse(plan.out).value()["actions"].size(), 5u);
+    EXPECT_EQ(Json::parse(plan.out).value()["actions"].size(), 6u);
 }
 
 TEST_F(SecondCook, aDryRunChecksWhetherAllIsCooked)
@@ -426,7 +426,7 @@ TEST_F(SecondCook, aDryRunChecksWhetherAllIsCooked)
     std::vector<std::string> arguments{"house.obj", "-o", "a.hearth", "--dry-run", "--check"};
     const ProgramEnd before = cook(arguments);
     EXPECT_EQ(before.exit_code, 1);
-    EXPECT_NE(before.out.find("5 of 5 cookers would run\n"), std::string::npos) << before.out;
+    EXPECT_NE(before.out.find("6 of 6 cookers would run\n"), std::string::npos) << before.out;
     ran(cook({"house.obj", "-o", "a.hearth"}));
     EXPECT_EQ(cook(arguments).exit_code, 0);
     const std::string pack = folder.read("a.hearth");
@@ -438,7 +438,7 @@ TEST_F(SecondCook, aDryRunChecksWhetherAllIsCooked)
     arguments.insert(arguments.end(), {"--format", "json"});
     const ProgramEnd json = cook(arguments);
     EXPECT_EQ(json.exit_code, 1);
-    EXPECT_EQ(Json::parse(json.out).value()["actions"].size(), 5u);
+    EXPECT_EQ(Json::parse(json.out).value()["actions"].size(), 6u);
     EXPECT_EQ(cook({"house.obj", "-o", "a.hearth", "--dry-run"}).exit_code, 0) << "not asked for";
     EXPECT_EQ(cook({"house.obj", "-o", "a.hearth", "--check"}).exit_code, 2) << "there is nothing to check";
 }
@@ -480,12 +480,12 @@ TEST_F(SecondCook, aCacheThatCannotBeUsedOnlyWarns)
 {
     folder.write("file", "not a folder");
     const ProgramEnd end = cook({"house.obj", "-o", "a.hearth", "--cache", "dir:file"});
-    EXPECT_EQ(ran(end).size(), 5u);
+    EXPECT_EQ(ran(end).size(), 6u);
     EXPECT_EQ(countOccurrences(end.err, "[W4100]"), 1u) << end.err;
     EXPECT_TRUE(command::verifyFile(folder / "a.hearth").ok());
-    EXPECT_EQ(ran(cook({"house.obj", "-o", "a.hearth"}, {"HEARTH_CACHE=off"})).size(), 5u);
+    EXPECT_EQ(ran(cook({"house.obj", "-o", "a.hearth"}, {"HEARTH_CACHE=off"})).size(), 6u);
     const ProgramEnd nowhere = cook({"house.obj", "-o", "a.hearth", "--cache", "dir:nowhere,ro"});
-    EXPECT_EQ(ran(nowhere).size(), 5u);
+    EXPECT_EQ(ran(nowhere).size(), 6u);
     EXPECT_EQ(countOccurrences(nowhere.err, "W4100"), 0u) << nowhere.err;
     EXPECT_FALSE(folder.has("nowhere"));
     EXPECT_EQ(cook({"house.obj", "-o", "a.hearth", "--cache", "ftp://host/x"}).exit_code, 2);
@@ -503,9 +503,9 @@ TEST_F(SecondCook, tellsWatchersWhatHappens)
         return events;
     };
     const auto first = readEvents({"house.obj", "-o", "a.hearth", "--events", "events"});
-    ASSERT_EQ(first.size(), 12u) << "a start and an end of five cookers, and of the cook";
+    ASSERT_EQ(first.size(), 14u) << "a start and an end of six cookers, and of the cook";
     EXPECT_EQ(first.front()["schema"], "hearth.events/1");
-    EXPECT_EQ(first.front()["actions"], 5);
+    EXPECT_EQ(first.front()["actions"], 6);
     EXPECT_EQ(first[1]["event"], "start");
     EXPECT_EQ(first[1]["why"][0], "never cooked into this pack before");
     EXPECT_EQ(first[2]["state"], "cooked");
@@ -513,7 +513,7 @@ TEST_F(SecondCook, tellsWatchersWhatHappens)
     EXPECT_EQ(first.back()["event"], "done");
     EXPECT_EQ(first.back()["exit"], 0);
     const auto second = readEvents({"house.obj", "-o", "a.hearth", "--events", "events"});
-    ASSERT_EQ(second.size(), 7u);
+    ASSERT_EQ(second.size(), 8u);
     EXPECT_EQ(second[1]["state"], "kept");
     folder.write("tree.bin", "short");
     const auto failed = readEvents({"tree.gltf", "-o", "a.hearth", "--events", "events"});
@@ -531,7 +531,7 @@ TEST_F(SecondCook, reportsWhatWasKept)
     EXPECT_TRUE(isUpToDate(end)) << end.err;
     const auto report = Json::parse(folder.read("b.json")).value();
     EXPECT_EQ(report["totals"]["cached"], 1);
-    EXPECT_EQ(report["totals"]["actions"]["cached"], 5);
+    EXPECT_EQ(report["totals"]["actions"]["cached"], 6);
     EXPECT_EQ(report["assets"][0]["state"], "cached");
     EXPECT_EQ(report["assets"][0]["key"].get<std::string>().size(), 64u);
     EXPECT_EQ(report["totals"]["cpu_s"], 0);

@@ -56,8 +56,12 @@ const std::vector<Layer>& layers()
          {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/mesh", "cook/pages",
           "cook/sampling", "cook/animation_bounds"}},
 
-        {"cook/texels/bc", {"formats", "cook/texels"}},
-        {"cook/texels/etc2", {"formats", "cook/texels"}},
+        {"cook/texels/blocks", {}},
+        {"cook/texels/bc", {"formats", "cook/texels/blocks"}},
+        {"cook/texels/etc2", {"formats", "cook/texels/blocks"}},
+        {"cook/texels",
+         {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/texels/blocks", "cook/texels/bc",
+          "cook/texels/etc2"}},
 
         {"cook/clusters/core", {"formats", "cook/mesh", "cook/animation_bounds"}},
         {"cook/clusters/partition", {"formats", "cook/mesh", "cook/clusters/core"}},

@@ -27,6 +27,8 @@ CookSettings allSettings()
     settings.lods_of_source = {{"2=b.obj", "1=low/a=b.obj"}};
     settings.values_of_source = {{{"animation.error", {"0.5", ""}},
                                   {"textures.max_size", {"64", ""}},
+                                  {"textures.families", {"[\"astc\",\"bc\"]", ""}},
+                                  {"textures.quality", {"\"draft\"", ""}},
                                   {"clusters.influences", {"4", ""}},
                                   {"visibility.mode", {"\"on\"", ""}},
                                   {"visibility.quality", {"\"draft\"", ""}},
@@ -80,8 +82,8 @@ TEST(SkipSource, leavesTheOthersAsTheyAre)
     EXPECT_EQ(sourcesRead(graph, graph.actions.back()), (std::vector<size_t>{0, 2}));
     EXPECT_EQ(graph.actions[bricks].inputs.size(), whole.actions[bricks].inputs.size() / 3 * 2);
     EXPECT_EQ(commands.back(),
-              (Words{"bin/hearth-link", "{import.part}", "{clusters.part}", "{textures.part}",
-                     "{skinning.part}", "{import.part}", "{clusters.part}", "{textures.part}",
+              (Words{"bin/hearth-link", "{import.part}", "{clusters.part}", "{texels.part}",
+                     "{skinning.part}", "{import.part}", "{clusters.part}", "{texels.part}",
                      "{skinning.part}", "--bricks", "{bricks.part}", "-o", "{pack.hearth}", "--skipped",
                      R"({"source":"b.obj","code":"E1101","pointer":"line 3","text":"is bad"})"}));
     const std::vector<Words> before = getCommands(whole);
@@ -94,7 +96,7 @@ TEST(SkipSource, leavesTheOthersAsTheyAre)
 TEST(CookGraph, passesSettingsToEveryCooker)
 {
     const std::vector<Words> commands = getCommands(makeCookGraph(allSettings()).value());
-    ASSERT_EQ(commands.size(), 8u);
+    ASSERT_EQ(commands.size(), 9u);
     EXPECT_EQ(commands[0],
               (Words{"bin/hearth-import", "props/a.obj", "--lod", "1=low/a=b.obj", "--lod", "2=b.obj", "-o",
                      "{import.part}", "--set", "animation.error=0.5", "--stats", "{import.json}"}));
@@ -103,9 +105,12 @@ TEST(CookGraph, passesSettingsToEveryCooker)
                                   "{clusters.json}"}));
     EXPECT_EQ(commands[2], (Words{"bin/hearth-textures", "{import.part}", "-o", "{textures.part}",
                                   "--max-size", "64", "--stats", "{textures.json}"}));
-    EXPECT_EQ(commands[3],
+    EXPECT_EQ(commands[3], (Words{"bin/hearth-texels", "{import.part}", "{textures.part}", "-o",
+                                  "{texels.part}", "--family", "astc", "--family", "bc", "--quality", "draft",
+                                  "--stats", "{texels.json}"}));
+    EXPECT_EQ(commands[4],
               (Words{"bin/hearth-skinning", "{import.part}", "{clusters.part}", "-o", "{skinning.part}"}));
-    EXPECT_EQ(commands[4], (Words{"bin/hearth-visibility",
+    EXPECT_EQ(commands[5], (Words{"bin/hearth-visibility",
                                   "{import.part}",
                                   "{clusters.part}",
                                   "-o",
@@ -128,13 +133,22 @@ TEST(CookGraph, passesSettingsToEveryCooker)
                                   "{visibility.json}",
                                   "--image",
                                   "{visibility.png}"}));
-    EXPECT_EQ(commands[5], (Words{"bin/hearth-specular", "-o", "{specular.part}"}));
-    EXPECT_EQ(commands[6], (Words{"bin/hearth-bricks", "{import.part}", "{clusters.part}", "{textures.part}",
+    EXPECT_EQ(commands[6], (Words{"bin/hearth-specular", "-o", "{specular.part}"}));
+    EXPECT_EQ(commands[7], (Words{"bin/hearth-bricks", "{import.part}", "{clusters.part}", "{textures.part}",
                                   "-o", "{bricks.part}", "--voxel-size", "0.25", "--memory", "1048576",
                                   "--stats", "{bricks.json}"}));
-    EXPECT_EQ(commands[7], (Words{"bin/hearth-link", "{import.part}", "{visibility.part}", "{textures.part}",
+    EXPECT_EQ(commands[8], (Words{"bin/hearth-link", "{import.part}", "{visibility.part}", "{texels.part}",
                                   "{skinning.part}", "--specular", "{specular.part}", "--bricks",
                                   "{bricks.part}", "-o", "{pack.hearth}"}));
+}
+
+TEST(CookGraph, linksPlainTexturesWhereNoFamilyIsWanted)
+{
+    CookSettings settings = allSettings();
+    settings.values_of_source[0]["textures.families"].text = "[]";
+    const std::vector<Words> commands = getCommands(makeCookGraph(settings).value());
+    ASSERT_EQ(commands.size(), 8u);
+    EXPECT_EQ(commands[7][3], "{textures.part}");
 }
 
 TEST(CookGraph, linksEverySourceInOrder)
@@ -143,7 +157,7 @@ TEST(CookGraph, linksEverySourceInOrder)
     settings.sources = {"a.obj", "b.obj", "a.obj"};
     settings.output = "all.hearth";
     const Graph graph = makeCookGraph(settings).value();
-    ASSERT_EQ(graph.actions.size(), 19u) << "five of each source; neighbours, specular, bricks, link";
+    ASSERT_EQ(graph.actions.size(), 22u) << "six of each source; neighbours, specular, bricks, link";
     const Action& link = graph.actions.back();
     EXPECT_EQ(link.cooker, "link");
     EXPECT_EQ(link.subject, "all.hearth");
@@ -348,7 +362,7 @@ TEST(Causes, tellParametersApart)
     settings.values_of_source[0].erase("visibility.distance");
     settings.values_of_source[0].erase("visibility.power");
     const Graph now = makeCookGraph(settings).value();
-    const Action& visibility = now.actions[4];
+    const Action& visibility = now.actions[5];
     ASSERT_EQ(visibility.cooker, "visibility");
     ActionState state;
     state.record = makeRecord(visibility, "v", {"h", "other"});

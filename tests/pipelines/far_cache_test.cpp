@@ -66,7 +66,7 @@ protected:
             folder.write(std::to_string(i) + ".obj", std::to_string(i));
             settings.sources.push_back(folder / (std::to_string(i) + ".obj"));
         }
-        for (const char* cooker : {"import", "textures", "clusters", "skinning", "link"})
+        for (const char* cooker : {"import", "textures", "texels", "clusters", "skinning", "link"})
             folder.write(std::string("hearth-") + cooker, cooker, true);
         graph = makeCookGraph(settings).value();
     }

@@ -132,8 +132,8 @@ protected:
     Sandbox folder;
 };
 
-const std::set<std::string> kOfSource{"import",     "textures", "clusters", "skinning",
-                                      "visibility", "bricks",   "link"};
+const std::set<std::string> kOfSource{"import",   "textures",   "texels", "clusters",
+                                      "skinning", "visibility", "bricks", "link"};
 
 } // namespace
 
@@ -160,7 +160,8 @@ TEST_F(Keys, everyParameterChangesThem)
              s.values_of_source.push_back(s.values_of_source[0]);
              s.lods_of_source.emplace_back();
          },
-         {"import", "textures", "clusters", "skinning", "neighbours", "visibility", "bricks", "link"}},
+         {"import", "textures", "texels", "clusters", "skinning", "neighbours", "visibility", "bricks",
+          "link"}},
         {"no lod", [](CookSettings& s) { s.lods_of_source.clear(); }, kOfSource},
         {"another level", [&](CookSettings& s) { s.lods_of_source = {{"2=" + low}}; }, kOfSource},
         {"another lod", [&](CookSettings& s) { s.lods_of_source = {{"1=" + s.sources[0]}}; }, kOfSource},
@@ -182,7 +183,8 @@ TEST_F(Keys, everySettingChangesThoseOfItsCookerAndItsReaders)
     const std::map<std::string, std::set<std::string>> readers{
         {"import", kOfSource},
         {"clusters", {"clusters", "skinning", "visibility", "bricks", "link"}},
-        {"textures", {"textures", "bricks", "link"}},
+        {"textures", {"textures", "texels", "bricks", "link"}},
+        {"texels", {"texels", "link"}},
         {"visibility", {"visibility", "link"}},
         {"bricks", {"bricks", "link"}}};
     for (const cookers::Cooker& cooker : cookers::allCookers())

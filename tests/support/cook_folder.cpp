@@ -39,6 +39,15 @@ echo '{"images": [{"name": "bark", "width": 4, "height": 2, "mips": 3, "format":
                    "bytes_stored": 40, "error": {"rms": 0.0, "psnr_db": null}}]}' > "$2"
 )";
 
+constexpr const char* kTexels = R"(#!/bin/sh
+cp "PARTS.textures.part" "$4"
+while [ "$1" != "--stats" ]; do shift; done
+echo '{"images": [{"format": "astc-6x6-srgb", "role": "color", "bytes": 48, "bytes_stored": 30,
+                   "error": {"rms": 0.01, "psnr_db": 40.0}, "error_p999": {"rms": 0.02, "psnr_db": 34.0},
+                   "error_smooth": {"rms": 0.0, "psnr_db": null}, "coverage_error": 0.0,
+                   "target": {"rms": 0.015, "psnr_db": 36.5}, "holds_target": true}]}' > "$2"
+)";
+
 constexpr const char* kClusters = R"(#!/bin/sh
 if [ "$4" = "--set" ]; then echo "$*" >> asked; fi
 if grep -q "^halfway" "$1"; then echo "$1|chunk SMSH 0: error: is bad [E2010] hint: again" >&2; exit 65; fi
@@ -84,6 +93,7 @@ Cook::Cook()
     programs.write("small.import.json", model.meta);
     programs.write("hearth-import", withParts(kImport, parts), true);
     programs.write("hearth-textures", withParts(kTextures, parts), true);
+    programs.write("hearth-texels", withParts(kTexels, parts), true);
     programs.write("hearth-clusters", withParts(kClusters, parts), true);
     programs.write("hearth-skinning", withParts(kSkinning, parts), true);
     programs.write("hearth-bricks", withParts(kBricks, parts), true);

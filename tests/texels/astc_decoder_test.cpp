@@ -310,8 +310,8 @@ TEST_P(DecodeAstcBlock, isLibastcencsForRandomBlocks)
     EXPECT_EQ(classes.size(), test::kSanitized ? classes.size() : kClasses);
 }
 
-/// Return the values of 16 bits of a block by the endpoints, weights and partitions that libastcenc reads: half
-/// floats have too few bits for all of them.
+/// Return the values of 16 bits of a block by the endpoints, weights and partitions that libastcenc reads:
+/// half floats have too few bits for all of them.
 DecodedTexel interpolate(const astcenc_block_info& info, size_t texel, size_t width)
 {
     const size_t x = texel % width, y = texel / width, i = y * width + x;
@@ -390,8 +390,7 @@ TEST_P(DecodeAstcBlock, isLibastcencsForWhatItEncodes)
 INSTANTIATE_TEST_SUITE_P(Footprints, DecodeAstcBlock, testing::Range(0u, kAstcFootprints),
                          [](const auto& row)
                          {
-                             const auto& traits =
-                                 texelTraits(astcFormat(TexelFormat::astc_unorm, row.param));
+                             const auto& traits = texelTraits(astcFormat(TexelFormat::astc_unorm, row.param));
                              return std::to_string(traits.block_width) + "x" +
                                     std::to_string(traits.block_height);
                          });

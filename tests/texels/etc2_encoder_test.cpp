@@ -21,7 +21,7 @@ using formats::TexelFormat;
 using test::trials;
 
 constexpr std::array<Effort, 3> kEfforts{Effort::draft, Effort::normal, Effort::high};
-constexpr ChannelWeights kEqualWeights{1, 1, 1};
+constexpr ColorWeights kEqualWeights{1, 1, 1};
 
 int extend(int code, int bits)
 {
@@ -29,7 +29,7 @@ int extend(int code, int bits)
 }
 
 /// Return the sum of weighted squares that the decoder sees.
-uint32_t recount(const Block8& block, std::span<const std::byte> bytes, const ChannelWeights& weights)
+uint32_t recount(const Block8& block, std::span<const std::byte> bytes, const ColorWeights& weights)
 {
     std::array<DecodedTexel, 16> texels;
     formats::decodeEtc2Block(formats::texelTraits(TexelFormat::etc2_rgb8_unorm), bytes, texels);
@@ -198,7 +198,7 @@ TEST(Etc2Encoder, theErrorIsThatOfTheDecodedBlockInAllModes)
     Blocks random(4);
     std::set<std::string> modes;
     for (const Effort effort : kEfforts)
-        for (const ChannelWeights weights : {kEqualWeights, ChannelWeights{3, 6, 1}})
+        for (const ColorWeights weights : {kEqualWeights, ColorWeights{3, 6, 1}})
         {
             const Etc2Encoder encoder(effort, weights);
             for (size_t trial = 0; trial < trials(400); ++trial)

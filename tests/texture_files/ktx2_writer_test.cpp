@@ -38,7 +38,7 @@ Bytes drawMips(const TexelFormatTraits& traits)
 Bytes write(const TexelFormatTraits& traits, const Bytes& mips, bool compressed,
             const std::string& swizzle = "rgba")
 {
-    return writeKtx2({&traits, kWidth, kHeight, kMips, mips, swizzle}, "Hearth test", compressed);
+    return writeKtx2({&traits, kWidth, kHeight, kMips, mips, swizzle}, "Hearth test 123", compressed);
 }
 
 /// Fields of a file, read as the specification of KTX 2.0 numbers them.
@@ -126,7 +126,7 @@ void checkDescriptor(const TexelFormatTraits& traits)
     EXPECT_EQ(words[1], 0u);
     EXPECT_EQ(words[2], 2 | (words[0] - 4) << 16);
     EXPECT_EQ(words[3] >> 8, 1u | (traits.coding == TexelCoding::srgb ? 2u : 1u) << 8);
-    EXPECT_EQ(words[4], traits.block_width - 1u | (traits.block_height - 1u) << 8);
+    EXPECT_EQ(words[4], (traits.block_width - 1u) | (traits.block_height - 1u) << 8);
     EXPECT_EQ(words[5], traits.block_bytes);
     EXPECT_EQ(words[6], 0u);
     std::vector<bool> bits(8u * traits.block_bytes);
@@ -200,10 +200,11 @@ TEST(WriteKtx2, sortsKeys)
     const TexelFormatTraits& traits = *findTexelFormat("astc-4x4-unorm");
     const Bytes mips = drawMips(traits);
     EXPECT_EQ(Ktx2Fields(write(traits, mips, false)).entries(),
-              (Entries{{"KTXorientation", "rd\0"s}, {"KTXwriter", "Hearth test\0"s}}));
-    EXPECT_EQ(
-        Ktx2Fields(write(traits, mips, false, "ra01")).entries(),
-        (Entries{{"KTXorientation", "rd\0"s}, {"KTXswizzle", "ra01\0"s}, {"KTXwriter", "Hearth test\0"s}}));
+              (Entries{{"KTXorientation", "rd\0"s}, {"KTXwriter", "Hearth test 123\0"s}}));
+    EXPECT_EQ(Ktx2Fields(write(traits, mips, false, "ra01")).entries(),
+              (Entries{{"KTXorientation", "rd\0"s},
+                       {"KTXswizzle", "ra01\0"s},
+                       {"KTXwriter", "Hearth test 123\0"s}}));
 }
 
 TEST(WriteKtx2, writesTypeSizes)

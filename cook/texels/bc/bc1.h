@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cook/texels/bc/channel_weights.h"
-#include "cook/texels/block_texels.h"
+#include "cook/texels/blocks/block_texels.h"
 
 #include <cstddef>
 #include <span>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/texels/block_texels.h"
+#include "cook/texels/blocks/block_texels.h"
 
 #include <cstddef>
 #include <span>

@@ -57,7 +57,7 @@ uint64_t avoidOverflow(uint32_t low, int32_t base, int32_t step)
 } // namespace
 
 std::array<std::byte, 8> writeHalves(const Block8& block, const HalvesSolution& solution,
-                                     const ChannelWeights& weights)
+                                     const ColorWeights& weights)
 {
     uint64_t word = field(solution.tables[0], 37, 3) | field(solution.tables[1], 34, 3) |
                     (solution.is_differential ? kDifferentialBit : 0) | (solution.is_flipped ? kFlipBit : 0);
@@ -81,7 +81,7 @@ std::array<std::byte, 8> writeHalves(const Block8& block, const HalvesSolution& 
 }
 
 std::array<std::byte, 8> writePaints(const Block8& block, PaintSolution solution,
-                                     const ChannelWeights& weights)
+                                     const ColorWeights& weights)
 {
     if (solution.is_h && (solution.codes[0] >= solution.codes[1]) != (solution.distance % 2 != 0))
         std::swap(solution.codes[0], solution.codes[1]);

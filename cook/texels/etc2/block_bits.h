@@ -16,10 +16,10 @@ namespace hearth::texels
 
 /// Return the block of a solution, each texel with its best index.
 std::array<std::byte, 8> writeHalves(const Block8& block, const HalvesSolution& solution,
-                                     const ChannelWeights& weights);
+                                     const ColorWeights& weights);
 /// The same. If the order of H's colours is not that which the distance asks for, they change places.
 std::array<std::byte, 8> writePaints(const Block8& block, PaintSolution solution,
-                                     const ChannelWeights& weights);
+                                     const ColorWeights& weights);
 std::array<std::byte, 8> writePlanar(const PlanarSolution& solution);
 
 } // namespace hearth::texels

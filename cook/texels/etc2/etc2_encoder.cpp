@@ -20,11 +20,11 @@ int32_t findPaintThreshold(Effort effort)
 
 } // namespace
 
-Etc2Encoder::Etc2Encoder(Effort effort, ChannelWeights weights) : effort_(effort), tables_(weights) {}
+Etc2Encoder::Etc2Encoder(Effort effort, ColorWeights weights) : effort_(effort), tables_(weights) {}
 
 EncodedColors Etc2Encoder::encodeRgb(const Block8& block) const
 {
-    const ChannelWeights& weights = tables_.weights;
+    const ColorWeights& weights = tables_.weights;
     const HalvesSolution halves = searchHalves(block, tables_, effort_);
     const PlanarSolution planar = searchPlanar(block, weights, effort_, halves.error);
     int32_t least = std::min(halves.error, planar.error);

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/texels/block_texels.h"
+#include "cook/texels/blocks/block_texels.h"
 #include "cook/texels/etc2/search_tables.h"
 
 #include <array>
@@ -33,7 +33,7 @@ class Etc2Encoder
 {
 public:
     /// weights  of red, green and blue in the error, each 1 to kMaxWeight
-    explicit Etc2Encoder(Effort effort, ChannelWeights weights = {1, 1, 1});
+    explicit Etc2Encoder(Effort effort, ColorWeights weights = {1, 1, 1});
 
     /// Encode the colours of a block; its alpha is not read.
     EncodedColors encodeRgb(const Block8& block) const;

@@ -167,7 +167,7 @@ HalfMeans findHalfMeans(const Half& half)
 }
 
 /// Return the weighted square of a colour's distance to the nearest paint.
-int32_t colorError(const Rgb& color, const Paints& paints, const ChannelWeights& weights)
+int32_t colorError(const Rgb& color, const Paints& paints, const ColorWeights& weights)
 {
     int32_t least = INT32_MAX;
     for (const std::array<int16_t, 3>& paint : paints)

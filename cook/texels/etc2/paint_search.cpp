@@ -14,7 +14,7 @@ namespace hearth::texels
 namespace
 {
 
-int32_t weightedGray(const Rgb& color, const ChannelWeights& weights)
+int32_t weightedGray(const Rgb& color, const ColorWeights& weights)
 {
     return weights[0] * color[0] + weights[1] * color[1] + weights[2] * color[2];
 }

@@ -51,7 +51,7 @@ ChannelTexels<count> gatherTexels(const Block8& block, TexelMask mask)
 /// Return each texel's least error.
 template <size_t count>
 std::array<int32_t, count> paintErrors(const ChannelTexels<count>& texels, const Paints& paints,
-                                       const ChannelWeights& weights)
+                                       const ColorWeights& weights)
 {
     std::array<int32_t, count> best;
     best.fill(INT32_MAX);
@@ -72,7 +72,7 @@ std::array<int32_t, count> paintErrors(const ChannelTexels<count>& texels, const
 
 /// Return the sum of the texels' least errors.
 template <size_t count>
-int32_t paintError(const ChannelTexels<count>& texels, const Paints& paints, const ChannelWeights& weights)
+int32_t paintError(const ChannelTexels<count>& texels, const Paints& paints, const ColorWeights& weights)
 {
     int32_t sum = 0;
     for (const int32_t error : paintErrors(texels, paints, weights))
@@ -84,7 +84,7 @@ int32_t paintError(const ChannelTexels<count>& texels, const Paints& paints, con
 /// returns  [texel]: index of 2 bits; the first of equal ones
 template <size_t count>
 std::array<uint8_t, count> choosePaints(const ChannelTexels<count>& texels, const Paints& paints,
-                                        const ChannelWeights& weights)
+                                        const ColorWeights& weights)
 {
     std::array<uint8_t, count> indices;
     for (size_t t = 0; t < count; ++t)

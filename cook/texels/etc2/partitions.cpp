@@ -12,7 +12,7 @@ namespace
 using Points = std::array<Rgb, 16>;
 
 /// Return the points of colours, or of their differences from their own gray.
-Points makePoints(const Block8& block, const ChannelWeights& weights, bool has_gray)
+Points makePoints(const Block8& block, const ColorWeights& weights, bool has_gray)
 {
     Points points;
     const int32_t weight_sum = weights[0] + weights[1] + weights[2];
@@ -27,7 +27,7 @@ Points makePoints(const Block8& block, const ChannelWeights& weights, bool has_g
     return points;
 }
 
-int32_t distance2(const Rgb& a, const Rgb& b, const ChannelWeights& weights)
+int32_t distance2(const Rgb& a, const Rgb& b, const ColorWeights& weights)
 {
     int32_t sum = 0;
     for (size_t c = 0; c < 3; ++c)
@@ -35,7 +35,7 @@ int32_t distance2(const Rgb& a, const Rgb& b, const ChannelWeights& weights)
     return sum;
 }
 
-size_t findFarthest(const Points& points, const Rgb& from, const ChannelWeights& weights)
+size_t findFarthest(const Points& points, const Rgb& from, const ColorWeights& weights)
 {
     size_t farthest = 0;
     int32_t greatest = -1;
@@ -64,7 +64,7 @@ Rgb findMean(const Points& points, TexelMask mask)
 }
 
 /// Return the points that are nearer to the first of two.
-TexelMask findNearer(const Points& points, const std::array<Rgb, 2>& centres, const ChannelWeights& weights)
+TexelMask findNearer(const Points& points, const std::array<Rgb, 2>& centres, const ColorWeights& weights)
 {
     TexelMask mask = 0;
     for (size_t t = 0; t < 16; ++t)
@@ -74,14 +74,14 @@ TexelMask findNearer(const Points& points, const std::array<Rgb, 2>& centres, co
 }
 
 /// Two points far from each other: the farthest from the mean, and the farthest from that one.
-std::array<Rgb, 2> findExtremes(const Points& points, const ChannelWeights& weights)
+std::array<Rgb, 2> findExtremes(const Points& points, const ColorWeights& weights)
 {
     const size_t first = findFarthest(points, findMean(points, kAllTexels), weights);
     return {points[first], points[findFarthest(points, points[first], weights)]};
 }
 
 /// Return a division by two means; 0 if all points are equal.
-TexelMask findTwoMeans(const Points& points, std::array<Rgb, 2> centres, const ChannelWeights& weights)
+TexelMask findTwoMeans(const Points& points, std::array<Rgb, 2> centres, const ColorWeights& weights)
 {
     TexelMask mask = 0;
     for (int round = 0; round < 4; ++round)
@@ -106,7 +106,7 @@ void addPartition(TexelMask mask, PartitionList& list)
 }
 
 /// Add the divisions between neighbours in the direction of two extremes.
-void addSplits(const Points& points, const std::array<Rgb, 2>& extremes, const ChannelWeights& weights,
+void addSplits(const Points& points, const std::array<Rgb, 2>& extremes, const ColorWeights& weights,
                PartitionList& list)
 {
     std::array<std::pair<int32_t, size_t>, 16> order; // place along the direction, texel
@@ -125,7 +125,7 @@ void addSplits(const Points& points, const std::array<Rgb, 2>& extremes, const C
 
 } // namespace
 
-PartitionList listPartitions(const Block8& block, const ChannelWeights& weights, Effort effort)
+PartitionList listPartitions(const Block8& block, const ColorWeights& weights, Effort effort)
 {
     PartitionList list;
     for (const bool has_gray : {true, false})

@@ -22,6 +22,6 @@ struct PartitionList
 
 /// List divisions by two means of colours, by two means of what is left of colours without gray, and with
 /// Effort::high at each place between colours along both directions. None if all texels are equal.
-PartitionList listPartitions(const Block8& block, const ChannelWeights& weights, Effort effort);
+PartitionList listPartitions(const Block8& block, const ColorWeights& weights, Effort effort);
 
 } // namespace hearth::texels

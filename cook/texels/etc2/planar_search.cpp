@@ -110,7 +110,7 @@ std::pair<PlanarCodes, int32_t> fitPlane(const ChannelPlane& plane, int bits, Ef
 
 /// True if a plane may have less error than a limit. Rounding of 16 texels' channels moves the root of the
 /// error by at most sqrt(16 * 3 / 4) < 4 (times that of the greatest weight).
-bool mayBeBelow(int64_t least80, int32_t limit, const ChannelWeights& weights)
+bool mayBeBelow(int64_t least80, int32_t limit, const ColorWeights& weights)
 {
     const int64_t greatest = *std::max_element(weights.begin(), weights.end());
     // sqrt(least) < sqrt(limit) + 4 sqrt(w)  <=>  least - limit - 16 w < 8 sqrt(w limit)
@@ -120,7 +120,7 @@ bool mayBeBelow(int64_t least80, int32_t limit, const ChannelWeights& weights)
 
 } // namespace
 
-PlanarSolution searchPlanar(const Block8& block, const ChannelWeights& weights, Effort effort, int32_t limit)
+PlanarSolution searchPlanar(const Block8& block, const ColorWeights& weights, Effort effort, int32_t limit)
 {
     std::array<ChannelPlane, 3> planes;
     int64_t least80 = 0;

@@ -21,6 +21,6 @@ struct PlanarSolution
 
 /// Find colours of little error.
 /// limit  the search may end early if no error is below; the result then has error INT32_MAX
-PlanarSolution searchPlanar(const Block8& block, const ChannelWeights& weights, Effort effort, int32_t limit);
+PlanarSolution searchPlanar(const Block8& block, const ColorWeights& weights, Effort effort, int32_t limit);
 
 } // namespace hearth::texels

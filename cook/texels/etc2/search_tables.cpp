@@ -9,7 +9,7 @@
 namespace hearth::texels
 {
 
-SearchTables::SearchTables(ChannelWeights channel_weights)
+SearchTables::SearchTables(ColorWeights channel_weights)
     : weights(channel_weights), weight_sum(weights[0] + weights[1] + weights[2])
 {
     for (const uint8_t weight : weights)

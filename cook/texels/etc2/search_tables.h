@@ -10,7 +10,7 @@ namespace hearth::texels
 {
 
 /// Weights of red, green and blue in the error.
-using ChannelWeights = std::array<uint8_t, 3>;
+using ColorWeights = std::array<uint8_t, 3>;
 
 inline constexpr uint8_t kMaxWeight = 8;
 
@@ -26,9 +26,9 @@ using TableErrors = std::array<int32_t, 8>;
 /// b + m to 0 to 255 only makes the error less.
 struct SearchTables
 {
-    explicit SearchTables(ChannelWeights weights);
+    explicit SearchTables(ColorWeights weights);
 
-    ChannelWeights weights;
+    ColorWeights weights;
     int32_t weight_sum;
     /// [|distance in gray|]: the better one of the two modifiers of that sign, of ETC1's tables
     std::vector<TableErrors> halves;

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/texels/block_texels.h"
+#include "cook/texels/blocks/block_texels.h"
 #include "cook/texels/etc2/search_tables.h"
 
 #include <array>
@@ -29,7 +29,7 @@ struct TexelSet
     TexelSet(const Block8& block, TexelMask mask, const SearchTables& tables);
 
     /// Return the sum of weighted squares of differences from a colour.
-    int32_t spread(const Rgb& color, const ChannelWeights& weights) const
+    int32_t spread(const Rgb& color, const ColorWeights& weights) const
     {
         int32_t error = squares;
         for (size_t c = 0; c < 3; ++c)

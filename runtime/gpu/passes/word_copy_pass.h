@@ -1,9 +1,9 @@
-// Copies words between buffers of a scene on the compute stage. See scene/word_copies.h.
+// Copies words between buffers of a scene on the compute stage. See vulkan/word_copies.h.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
 #include "runtime/gpu/scene/scene.h"
-#include "runtime/gpu/scene/word_copies.h"
+#include "runtime/gpu/vulkan/word_copies.h"
 
 namespace hearth::gpu
 {

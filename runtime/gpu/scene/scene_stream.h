@@ -4,7 +4,7 @@
 #pragma once
 
 #include "runtime/gpu/scene/pool_layout.h"
-#include "runtime/gpu/scene/word_copies.h"
+#include "runtime/gpu/vulkan/word_copies.h"
 #include "runtime/gpu/vulkan/memory.h"
 #include "runtime/pack/page_stream.h"
 

@@ -58,8 +58,8 @@ struct Device
     MemoryHooks memory_hooks{};
     MessageHook message_hook{};
     bool sampler_anisotropy = false;
-    /// [TexelFormat]: textures may have the format and be filtered. Features for compressed formats need not be
-    /// enabled. ASTC of floats needs an extension that no caller can enable here: it is never set.
+    /// [TexelFormat]: textures may have the format and be filtered. Features for compressed formats need not
+    /// be enabled. ASTC of floats needs an extension that no caller can enable here: it is never set.
     std::bitset<formats::kTexelFormatEnd> texel_formats{};
     /// Compares with depth images of these formats may be bilinear, which Vulkan does not require.
     bool filters_d16 = false;

@@ -80,7 +80,7 @@ float clampRoughness(float roughness) { return clamp(roughness, 0.045, 1.0); }
 float surfaceRoughness(vec4 metallic_roughness) { return clampRoughness(material.roughness * metallic_roughness.g); }
 
 // Normal on the front side with a normal map applied: unit, world axes.
-// texel  of the map: x and y of a unit vector. Formats of two channels store no z, and filtered ones need it to be unit
+// texel  of the map: x and y of a unit vector. Formats of two channels store no z
 vec3 mappedNormal(SurfacePoint point, vec2 texel, float scale)
 {
     vec2 slope = texel * 2.0 - 1.0;

@@ -25,7 +25,7 @@ TEST_F(Farm, aLauncherIsNotBelieved)
     EXPECT_FALSE(folder.has("0.json"));
     const ProgramEnd done = run(0, 2, {"--launcher", folder / "honest", "--record", "0.json"});
     EXPECT_EQ(done.exit_code, 0) << "its code is no matter: " << done.err;
-    EXPECT_EQ(Json::parse(folder.read("0.json")).value()["actions"].size(), 8u);
+    EXPECT_EQ(Json::parse(folder.read("0.json")).value()["actions"].size(), 10u);
     // the launcher still reports success falsely, but all results exist
     EXPECT_EQ(run(0, 2, {"--launcher", folder / "liar"}).exit_code, 0);
     fs::remove(folder.cacheContents().front());

@@ -45,12 +45,12 @@ public:
     Sandbox folder;
 };
 
-constexpr size_t kActions = 9;
+constexpr size_t kActions = 11;
 
 size_t ranIn(const ProgramEnd& end)
 {
     size_t count = 0;
-    for (const char* cooker : {"import", "textures", "clusters", "skinning", "link"})
+    for (const char* cooker : {"import", "textures", "texels", "clusters", "skinning", "link"})
         count += countOccurrences("\n" + end.err, std::string("\n") + cooker + " ");
     return count;
 }

@@ -328,7 +328,10 @@ TEST_F(LinkPack, secondSourceStandsBehindTheFirst)
     for (ExtrasRecord& record : first.extras)
         record.json.offset += 10;
     addParts(first, "a");
-    addParts(named("b.gltf"), "b");
+    PackModel second = named("b.gltf");
+    for (std::vector<std::byte>& texels : second.image_data)
+        texels[0] = std::byte{0x11}; // equal images would be one
+    addParts(second, "b");
     const PackView pack =
         linked(); // checked: every index of both is inside its table, every page where it should be
 
@@ -385,7 +388,33 @@ TEST_F(LinkPack, secondSourceStandsBehindTheFirst)
     for (uint32_t i = 0; i < model.pages.size(); ++i)
         EXPECT_EQ(pack.decodePage(static_cast<uint32_t>(model.pages.size()) + i).value(),
                   model.decoded_pages[i]);
-    EXPECT_TRUE(sameBytes(pack.imageData(3).value().bytes(), model.image_data[1]));
+    EXPECT_TRUE(sameBytes(pack.imageData(3).value().bytes(), second.image_data[1]));
+}
+
+TEST_F(LinkPack, equalImagesAreStoredOnce)
+{
+    PackModel second = named("b.gltf");
+    second.image_data[1][3] = std::byte{0x11}; // of equal size, but not equal
+    addParts(named("a.gltf"), "a");
+    addParts(second, "b");
+    const PackView pack = linked();
+    ASSERT_EQ(pack.images().size(), 3u);
+    EXPECT_EQ(pack.materials()[0].base_color_texture.image, 0u);
+    EXPECT_EQ(pack.materials()[0].metallic_roughness_texture.image, 1u);
+    EXPECT_EQ(pack.materials()[1].base_color_texture.image, 0u) << "that of the first source";
+    EXPECT_EQ(pack.materials()[1].metallic_roughness_texture.image, 2u);
+    EXPECT_EQ(pack.materials()[1].emissive_texture.image, kInvalidIndex);
+    EXPECT_EQ(pack.materialLayers()[1].clearcoat_texture.image, 0u);
+    EXPECT_TRUE(sameBytes(pack.imageData(2).value().bytes(), second.image_data[1]));
+}
+
+TEST_F(LinkPack, imagesOfEqualBytesAndOtherFormatsStayTwo)
+{
+    PackModel second = named("b.gltf");
+    second.images[0].format = static_cast<uint32_t>(TexelFormat::rgba8_unorm);
+    addParts(named("a.gltf"), "a");
+    addParts(second, "b");
+    EXPECT_EQ(linked().images().size(), 3u);
 }
 
 TEST_F(LinkPack, extrasOfEachSourceStayWithTheirObjects)

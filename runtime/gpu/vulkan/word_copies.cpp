@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/gpu/scene/word_copies.h"
+#include "runtime/gpu/vulkan/word_copies.h"
 
 #include "formats/base/assert.h"
 
