@@ -1,6 +1,7 @@
 # Compiler settings of all targets of the project. A project that adds this one as a subdirectory gets the
 # cookers and the libraries; the rest is opt-in.
 option(HEARTH_BUILD_COOKERS "Build hearth and the cookers; off where games are built for other machines" ON)
+option(HEARTH_BUILD_IMAGES "Build hearth-images, which reads TIFF, PSD, JPEG 2000 and parts of EXR, and needs OpenImageIO" ON)
 option(HEARTH_BUILD_TESTS "Build tests and benchmarks" ${PROJECT_IS_TOP_LEVEL})
 option(HEARTH_BUILD_SAMPLES "Build hearth-samples, the generator of sample sources" ${PROJECT_IS_TOP_LEVEL})
 option(HEARTH_BUILD_VIEWER "Build hearth-render" ${PROJECT_IS_TOP_LEVEL})

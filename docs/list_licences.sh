@@ -21,6 +21,8 @@ libpng|libpng|libpng-2.0
 libz.so|zlib|Zlib
 libjpeg|libjpeg-turbo|IJG and BSD-3-Clause
 libwebp|libwebp|BSD-3-Clause
+libOpenImageIO|OpenImageIO with FFmpeg|BSD-3-Clause and GPL-2.0-or-later
+liblcms2|Little CMS|MIT
 libOpenEXR|OpenEXR|BSD-3-Clause
 libIex|OpenEXR|BSD-3-Clause
 libIlmThread|OpenEXR|BSD-3-Clause
