@@ -35,6 +35,8 @@ constexpr uint64_t kMinMemory_bytes = uint64_t{2} << 30;
 // Text before the version in the binary of every program of Hearth (cmake/program_version.cpp.in).
 constexpr std::string_view kVersionMark = "hearth program version ";
 
+constexpr const char* kImagesProgram = "/hearth-images";
+
 /// Read the version from a program's binary; empty: it is no program of Hearth.
 std::string readProgramVersion(const std::string& program)
 {
@@ -58,6 +60,9 @@ DoctorCheck checkPrograms(const std::string& folder)
     for (const cookers::Cooker& cooker : cookers::allCookers())
         names.push_back(cooker.name);
     names.emplace_back("render");
+    // it may have been left out of the build: checkImages() says what it is for
+    if (::access((folder + kImagesProgram).c_str(), X_OK) == 0)
+        names.emplace_back("images");
     for (const std::string_view name : names)
     {
         const std::string program = fmt::format("{}/hearth-{}", folder, name);
@@ -75,6 +80,14 @@ DoctorCheck checkPrograms(const std::string& folder)
                 fmt::format("this is hearth " HEARTH_VERSION ", beside it are {}", fmt::join(others, ", ")),
                 "install Hearth anew: all of its programs come from one build"};
     return {"programs", State::ok, fmt::format("all of " HEARTH_VERSION ", in {}", folder), ""};
+}
+
+DoctorCheck checkImages(const std::string& folder)
+{
+    if (::access((folder + kImagesProgram).c_str(), X_OK) == 0)
+        return {"images", State::ok, "TIFF, PSD, JPEG 2000 and all parts of EXR are read", ""};
+    return {"images", State::warning, "hearth-images is not there: TIFF, PSD and JPEG 2000 are not read",
+            "build Hearth with HEARTH_BUILD_IMAGES, or convert such images to PNG"};
 }
 
 /// Return the nearest existing folder, at or above `folder`.
@@ -220,7 +233,7 @@ const char* stateName(State state)
 std::vector<DoctorCheck> runDoctorChecks(const Result<std::vector<cache::CacheSpec>>& caches)
 {
     const std::string folder = tools::programFolder();
-    std::vector<DoctorCheck> checks{checkPrograms(folder)};
+    std::vector<DoctorCheck> checks{checkPrograms(folder), checkImages(folder)};
     for (DoctorCheck& check : checkCaches(caches))
         checks.push_back(std::move(check));
     checks.push_back(checkSpace("temporary files", temporaryFolderOr(fs::temp_directory_path().string())));

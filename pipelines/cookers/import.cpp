@@ -16,6 +16,8 @@ using namespace settings;
 constexpr double kMaxAnimationError = 1000;
 constexpr double kMinScale = 1e-9, kMaxScale = 1e9;
 
+constexpr std::string_view kImportLayer = "import.layer";
+
 std::vector<Setting> makeImportSettings()
 {
     return {
@@ -28,6 +30,11 @@ std::vector<Setting> makeImportSettings()
                    "--scale", "METRES"),
         withOption(choiceSetting("import.up", "the axis of the source that points up", "y", {"y", "z"}),
                    "--up", "AXIS"),
+        {std::string(kImportLayer), Kind::text,
+         "of EXR images: the part, or the layer in a part, that is read", "the first part with colours"},
+        choiceSetting("import.icc",
+                      "convert: colours of TIFF, PSD and JPEG 2000 become sRGB by their ICC profile",
+                      "ignore", {"convert", "ignore"}),
         {std::string(kImportLods), Kind::texts,
          "files from the source's folder that are its levels of detail 1, 2, ..., made by hand; []: none, "
          "and no name makes the source a level",
@@ -46,6 +53,8 @@ Result<Arguments> makeImportArguments(const Values& values)
     addOption(values, "import.crease_angle", "--crease-angle", arguments);
     addOption(values, "import.scale", "--scale", arguments);
     addOption(values, "import.up", "--up", arguments);
+    addOption(values, kImportLayer, "--layer", arguments);
+    addOption(values, "import.icc", "--icc", arguments);
     addAssignments(values, "animation", arguments);
     return arguments;
 }

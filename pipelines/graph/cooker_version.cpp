@@ -6,9 +6,34 @@
 #include "pipelines/graph/shared_libraries.h"
 
 #include <algorithm>
+#include <array>
 
 namespace hearth::graph
 {
+
+namespace
+{
+
+// hearth-import starts hearth-images, whose texels depend on these of its 262 libraries
+constexpr std::string_view kStarts = "/hearth-import", kStarted = "/hearth-images";
+constexpr std::array<std::string_view, 5> kDecoders{"/libOpenImageIO.so", "/libtiff.so", "/libopenjp2.so",
+                                                    "/libOpenEXR", "/liblcms2.so"};
+
+/// Add the program that a cooker starts, where there is one, and its decoders.
+void addStarted(const std::string& executable, FileHashes& hashes, cache::Fields& fields)
+{
+    if (!executable.ends_with(kStarts))
+        return;
+    const std::string program =
+        executable.substr(0, executable.size() - kStarts.size()) + std::string(kStarted);
+    fields.emplace_back("starts", hashes.hashFile(program).value_or(""));
+    for (const std::string& library : findLibraries(program))
+        if (std::any_of(kDecoders.begin(), kDecoders.end(),
+                        [&](std::string_view name) { return library.find(name) != std::string::npos; }))
+            fields.emplace_back("started_library", hashes.hashFile(library).value_or(""));
+}
+
+} // namespace
 
 std::string cookerVersion(const std::string& executable, FileHashes& hashes)
 {
@@ -25,6 +50,7 @@ std::string cookerVersion(const std::string& executable, FileHashes& hashes)
     cache::Fields fields{{"program", *program}};
     for (const std::string& library : libraries)
         fields.emplace_back("library", library);
+    addStarted(executable, hashes, fields);
     return tools::computeSha256(cache::formatFields(fields));
 }
 

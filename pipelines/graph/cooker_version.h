@@ -11,7 +11,8 @@ namespace hearth::graph
 
 /// Hash the executable and the shared libraries that it is linked with (SHA-256). Unlike a version number,
 /// nobody can forget to raise it, and an update of zstd or Embree counts as a change of the cookers that use
-/// it. The price is that cooks by different builds of the same sources share nothing.
+/// it. The program that hearth-import starts is hashed, too. The price is that cooks by different builds of
+/// the same sources share nothing.
 ///
 /// returns  empty where there is no such executable
 std::string cookerVersion(const std::string& executable, FileHashes& hashes);

@@ -42,7 +42,8 @@ bool isTransparent(const DecodedImage& image)
 Status importImage(const std::string& path, std::span<const std::byte> bytes, const ImportOptions& options,
                    PartBuilder& part)
 {
-    HEARTH_ASSIGN_OR_RETURN(const DecodedImage image, decodeImage(bytes, path, options.limits));
+    HEARTH_ASSIGN_OR_RETURN(const DecodedImage image,
+                            decodeImage(bytes, path, options.limits, options.artist));
     for (const ImageNote& note : image.notes)
         part.warn(note.issue, "", note.text);
     part.warnOfColorDepth(image, "", "the image");

@@ -3,6 +3,7 @@
 #include "cook/animation_compression/clip_settings.h"
 #include "cook/command_line/command_line.h"
 #include "cook/tools/batch.h"
+#include "cook/tools/child_processes.h"
 #include "cook/tools/dependency_list.h"
 #include "cook/tools/lod_files.h"
 #include "formats/base/atomic_file.h"
@@ -10,6 +11,7 @@
 #include "formats/base/temp_directory.h"
 #include "formats/base/text.h"
 #include "pipelines/import/authored_lods.h"
+#include "pipelines/import/images/images_program.h"
 #include "pipelines/import/part/compress_part_clips.h"
 #include "pipelines/import/part/source_space.h"
 #include "pipelines/import/read_source.h"
@@ -33,6 +35,8 @@ struct Arguments
     double crease_angle_deg = 60;
     double scale = 1;
     std::string up = "y";
+    std::string layer;
+    std::string icc = "ignore";
 };
 
 constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180;
@@ -53,6 +57,8 @@ Status readAll(const Arguments& arguments, std::span<const tools::LodFile> lods,
     options.crease_angle_rad = static_cast<float>(arguments.crease_angle_deg * kRadiansPerDegree);
     if (!arguments.depfile.empty())
         options.reads = &reads;
+    import::ImagesProgram images(tools::programFolder() + "/hearth-images");
+    options.artist = {&images, arguments.layer, arguments.icc == "convert"};
     HEARTH_TRY(import::readSource(arguments.source, options, part));
     if (lods.empty())
         return success();
@@ -117,6 +123,15 @@ int program(int argc, char** argv)
         .range(import::kMinScale, import::kMaxScale);
     app.addOption("--up", arguments.up, "the axis of the source that points up")
         .choices({"y", "z"})
+        .showDefault();
+    app.addOption("--layer", arguments.layer,
+                  "of EXR images: name of the part, or of the layer in a part, to read; else the first part "
+                  "with colours");
+    app.addOption(
+           "--icc", arguments.icc,
+           "colours of TIFF, PSD and JPEG 2000 with an ICC profile: convert them to sRGB, or take them "
+           "for sRGB; glTF asks for the latter")
+        .choices({"convert", "ignore"})
         .showDefault();
     const cli::Option profile =
         app.addOption("--profile", arguments.profile, "TOML file: the error that clips may have");

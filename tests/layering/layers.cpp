@@ -97,7 +97,8 @@ const std::vector<Layer>& layers()
         {"pipelines/import/part",
          {"formats", "cook/json", "cook/tools", "cook/mesh", "cook/animation_bounds",
           "cook/animation_compression"}},
-        {"pipelines/import/images", {"formats", "pipelines/import/part"}},
+        {"pipelines/images", {"formats"}},
+        {"pipelines/import/images", {"formats", "pipelines/images", "pipelines/import/part"}},
         {"pipelines/import/source", {"formats", "cook/tools", "pipelines/import/images"}},
         {"pipelines/import/gltf/document",
          {"formats", "cook/json", "pipelines/import/part", "pipelines/import/source"}},
@@ -228,6 +229,8 @@ const std::vector<Library>& libraries()
         {"jerror.h", {"pipelines/import/"}},
         {"webp/", {"pipelines/import/"}},
         {"OpenEXR/", {"pipelines/import/", "runtime/viewer/"}},
+        {"OpenImageIO/", {"pipelines/images/"}},
+        {"lcms2.h", {"pipelines/images/"}},
         {"stb/", {"runtime/viewer/"}}, // writes PNG
         {"draco/", {"pipelines/import/"}},
         {"astcenc.h", {"cook/specular/", "cook/texels/"}},

@@ -65,11 +65,13 @@ Result<DecodedImage> GltfImages::read(uint32_t image, const std::string& where)
     if (source.uri)
     {
         HEARTH_ASSIGN_OR_RETURN(const FileBytes file, readUri(*source.uri, where, context_));
-        return decodeImage(file.bytes(), imageName(image), context_.options.limits);
+        return decodeImage(file.bytes(), imageName(image), context_.options.limits,
+                           context_.options.artist.withoutIcc());
     }
     if (source.buffer_view == kInvalidIndex)
         return context_.error(Issue::input_missing, where, "the image has neither a URI nor a buffer view");
-    return decodeImage(buffers_.view(source.buffer_view), imageName(image), context_.options.limits);
+    return decodeImage(buffers_.view(source.buffer_view), imageName(image), context_.options.limits,
+                       context_.options.artist.withoutIcc());
 }
 
 std::optional<DecodedImage> GltfImages::decode(uint32_t image, const std::string& where,

@@ -5,11 +5,13 @@
 
 #include "pipelines/import/images/channels.h"
 #include "pipelines/import/images/codecs.h"
+#include "pipelines/import/images/images_program.h"
 #include "pipelines/import/part/import_options.h"
 #include "pipelines/import/part/part_builder.h"
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 namespace hearth::import
 {
@@ -22,9 +24,10 @@ using Decoder = Result<DecodedImage> (*)(const EncodedImage&);
 struct Signature
 {
     std::string_view bytes;
-    Decoder decode; ///< null: a known format that is not supported
+    Decoder decode; ///< null: a known format that this process does not read
     std::string_view format;
     size_t offset = 0;
+    std::optional<images::Format> by_program{}; ///< hearth-images reads it; nullopt: it does not
 };
 
 using namespace std::string_view_literals;
@@ -36,15 +39,19 @@ constexpr std::array kSignatures = {
     Signature{"BM"sv, decodeBmp, "BMP"},
     Signature{"#?RADIANCE"sv, decodeHdr, "HDR"},
     Signature{"#?RGBE"sv, decodeHdr, "HDR"},
-    Signature{"\x76\x2F\x31\x01"sv, decodeExr, "EXR"},
+    Signature{"\x76\x2F\x31\x01"sv, decodeExr, "EXR", 0, images::Format::exr},
     Signature{"\xABKTX 20\xBB\r\n\x1A\n"sv, decodeKtx2, "KTX2"},
     Signature{"\xABKTX 11\xBB\r\n\x1A\n"sv, nullptr, "KTX1"},
     Signature{"sB\x13\x00"sv, nullptr, "Basis (.basis)"},
     Signature{"GIF8"sv, nullptr, "GIF"},
     Signature{"DDS "sv, nullptr, "DDS"},
-    Signature{"II*\0"sv, nullptr, "TIFF"},
-    Signature{"MM\0*"sv, nullptr, "TIFF"},
-    Signature{"8BPS"sv, nullptr, "PSD"},
+    Signature{"II*\0"sv, nullptr, "TIFF", 0, images::Format::tiff},
+    Signature{"MM\0*"sv, nullptr, "TIFF", 0, images::Format::tiff},
+    Signature{"II+\0"sv, nullptr, "TIFF", 0, images::Format::tiff}, // BigTIFF
+    Signature{"MM\0+"sv, nullptr, "TIFF", 0, images::Format::tiff},
+    Signature{"8BPS"sv, nullptr, "PSD", 0, images::Format::psd},
+    Signature{"\0\0\0\x0CjP  \r\n\x87\n"sv, nullptr, "JPEG 2000", 0, images::Format::jpeg2000},
+    Signature{"\xFF\x4F\xFF\x51"sv, nullptr, "JPEG 2000", 0, images::Format::jpeg2000},
     Signature{"ftypavif"sv, nullptr, "AVIF", 4},
     Signature{"\0\0\0\x0CJXL \r\n\x87\n"sv, nullptr, "JPEG XL"},
     Signature{"\xFF\x0A"sv, nullptr, "JPEG XL"},
@@ -74,6 +81,32 @@ bool looksLikeTga(std::span<const std::byte> bytes)
     const bool known_depth = depth == 8 || depth == 15 || depth == 16 || depth == 24 || depth == 32;
     return at(1) <= 1 && type >= 1 && type <= 3 && (at(2) & 0xF0u) == 0 && (type == 1) == (at(1) == 1) &&
            known_depth;
+}
+
+/// True if an EXR may have an image that decodeExr does not find.
+bool mayHaveOtherImages(const EncodedImage& source, const ArtistImages& artist, const Error& error)
+{
+    constexpr size_t kFlagsOffset = 5;
+    constexpr std::byte kMultiPartFlag{0x10};
+    const bool has_parts =
+        source.bytes.size() > kFlagsOffset && (source.bytes[kFlagsOffset] & kMultiPartFlag) != std::byte{0};
+    return artist.program != nullptr && has_parts && error.issue == Issue::image_unsupported;
+}
+
+Result<DecodedImage> decodeKnown(const EncodedImage& source, const Signature& signature,
+                                 const ArtistImages& artist)
+{
+    const auto decodeByProgram = [&]
+    { return artist.program->decode(*signature.by_program, source, artist.layer, artist.convert_icc); };
+    if (signature.decode == nullptr)
+        return signature.by_program && artist.program != nullptr
+                   ? decodeByProgram()
+                   : source.unsupported(std::string(signature.format) + " images are not read");
+    const bool asks_for_layer = signature.by_program && artist.program != nullptr && !artist.layer.empty();
+    Result<DecodedImage> image = asks_for_layer ? decodeByProgram() : signature.decode(source);
+    if (signature.by_program && !image.ok() && mayHaveOtherImages(source, artist, image.error()))
+        return decodeByProgram();
+    return image;
 }
 
 bool hasExtension(std::string_view path, std::string_view extension)
@@ -119,14 +152,12 @@ Result<DecodedImage> allocateImage(const EncodedImage& source, uint64_t width, u
 }
 
 Result<DecodedImage> decodeImage(std::span<const std::byte> bytes, const std::string& name,
-                                 const ImportLimits& limits)
+                                 const ImportLimits& limits, const ArtistImages& artist)
 {
     const EncodedImage source{bytes, name, limits};
     if (const Signature* signature = findSignature(bytes))
     {
-        if (signature->decode == nullptr)
-            return source.unsupported(std::string(signature->format) + " images are not read");
-        HEARTH_ASSIGN_OR_RETURN(DecodedImage image, signature->decode(source));
+        HEARTH_ASSIGN_OR_RETURN(DecodedImage image, decodeKnown(source, *signature, artist));
         return dropEmptyBits(std::move(image));
     }
     if (looksLikeTga(bytes))

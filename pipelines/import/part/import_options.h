@@ -6,9 +6,12 @@
 #include "cook/tools/dependency_list.h"
 
 #include <cstdint>
+#include <string>
 
 namespace hearth::import
 {
+
+class ImagesProgram;
 
 /// Largest coordinate of a position. Beyond it the squares of areas leave the range of floats in the cookers.
 inline constexpr double kMaxCoordinate = 1e9;
@@ -24,9 +27,23 @@ struct ImportLimits
     uint64_t max_instances = uint64_t{1} << 20;
 };
 
+/// Reading of images as artists' programs store them.
+struct ArtistImages
+{
+    ImagesProgram* program = nullptr; ///< reads TIFF, PSD, JPEG 2000; null: such images are refused
+    /// EXR: name of the part, or of the layer in a part, to read; empty: the first part with colours.
+    std::string layer;
+    /// Convert colours to sRGB by the image's ICC profile; CMYK is converted in any case.
+    bool convert_icc = false;
+
+    /// Return the same without conversion: for numbers that are no colours, and for glTF, which forbids it.
+    ArtistImages withoutIcc() const { return {program, layer, false}; }
+};
+
 struct ImportOptions
 {
     ImportLimits limits;
+    ArtistImages artist;
     /// Edges sharper than this stay hard in a mesh without normals: 60 degrees.
     float crease_angle_rad = 1.0471976f;
     tools::DependencyList* reads = nullptr; ///< records the files that are read; null: not recorded

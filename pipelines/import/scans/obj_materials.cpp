@@ -152,7 +152,7 @@ private:
         bool placeholder = false;
         DecodedImage image = has_opacity && mtl.diffuse_map.file.empty()
                                  ? DecodedImage{}
-                                 : load(mtl.diffuse_map.file, placeholder);
+                                 : load(mtl.diffuse_map.file, true, placeholder);
         if (has_opacity)
             mergeOpacity(mtl, image);
         const uint32_t flags =
@@ -193,7 +193,7 @@ private:
         if (known != image_of_key_.end())
             return known->second;
         bool placeholder = false;
-        const DecodedImage image = load(texture.file, placeholder);
+        const DecodedImage image = load(texture.file, purpose == Purpose::color, placeholder);
         // the flat normal is (128, 128, 255)
         const bool height_map = may_be_height_map && !placeholder && !image.isFloat() && isGrey(image);
         if (height_map)
@@ -236,11 +236,13 @@ private:
         std::memcpy(ref.uv_transform, transform, sizeof(transform));
     }
 
-    Result<DecodedImage> read(const std::string& name)
+    /// are_colors  false: numbers, which no ICC profile may change
+    Result<DecodedImage> read(const std::string& name, bool are_colors)
     {
         HEARTH_ASSIGN_OR_RETURN(const FileBytes file, folder_.read(name, options_.limits.max_file_bytes));
         part_.addSource(name, file.bytes());
-        Result<DecodedImage> image = decodeImage(file.bytes(), name, options_.limits);
+        Result<DecodedImage> image = decodeImage(file.bytes(), name, options_.limits,
+                                                 are_colors ? options_.artist : options_.artist.withoutIcc());
         if (image.ok())
             for (const ImageNote& note : image->notes)
                 part_.warn(note.issue, "", "image '" + name + "'" + describeUser() + ": " + note.text);
@@ -248,9 +250,9 @@ private:
     }
 
     /// Load an image, or return the placeholder with a warning.
-    DecodedImage load(const std::string& file, bool& placeholder)
+    DecodedImage load(const std::string& file, bool are_colors, bool& placeholder)
     {
-        auto image = read(file);
+        auto image = read(file, are_colors);
         placeholder = !image.ok();
         if (image.ok())
             return std::move(image).value();
@@ -274,7 +276,7 @@ private:
     /// has transparent texels, else its brightness.
     void mergeOpacity(const MtlMaterial& mtl, DecodedImage& image)
     {
-        auto opacity = read(mtl.opacity_map.file);
+        auto opacity = read(mtl.opacity_map.file, false);
         if (!opacity.ok() || opacity->isFloat() || image.isFloat())
         {
             warnOfImage(mtl.opacity_map.file, opacity.ok()
