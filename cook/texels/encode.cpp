@@ -7,6 +7,7 @@
 #include "formats/base/assert.h"
 #include "formats/base/half.h"
 #include "formats/texels/decode_texels.h"
+#include "formats/texels/swizzle.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -87,9 +88,8 @@ StripeError measureStripe(const PlainImage& image, std::span<const SmoothCells> 
     const std::vector<DecodedTexel> plain = decodeRows(image, stripe.mip, stripe.first_row, stripe.rows);
     std::vector<DecodedTexel> read =
         decodeMip(*candidate.traits, width, stripe.rows, encoded.subspan(stripe.first_byte, stripe.bytes));
-    const uint16_t one = image.role == ImageRole::light ? halfFromFloat(1) : uint16_t{0xFFFF};
     for (DecodedTexel& texel : read)
-        texel = applySwizzle(texel, candidate.swizzle, one);
+        texel = readStored(candidate, texel);
     error.sum.add(plain, read);
     if (!smooth.empty())
         for (size_t i = 0; i < plain.size(); ++i)
@@ -128,6 +128,15 @@ double findPercentile(std::span<const uint32_t> histogram, ImageRole role)
 }
 
 } // namespace
+
+DecodedTexel readStored(const Candidate& candidate, const DecodedTexel& stored)
+{
+    uint8_t swizzle[4];
+    for (uint32_t c = 0; c < 4; ++c)
+        swizzle[c] = static_cast<uint8_t>(candidate.swizzle[c]);
+    const bool is_float = candidate.traits->coding == TexelCoding::float_value;
+    return applySwizzle(stored, swizzle, is_float ? halfFromFloat(1) : uint16_t{0xFFFF});
+}
 
 StoredTexels arrangeChannels(const PlainImage& image, const Candidate& candidate, uint32_t width,
                              uint32_t height, std::span<const DecodedTexel> texels)

@@ -29,6 +29,9 @@ struct StoredTexels
 StoredTexels arrangeChannels(const PlainImage& image, const Candidate& candidate, uint32_t width,
                              uint32_t height, std::span<const formats::DecodedTexel> texels);
 
+/// Return a decoded texel as shaders read it.
+formats::DecodedTexel readStored(const Candidate& candidate, const formats::DecodedTexel& stored);
+
 /// Encode texels; on the caller's thread.
 /// returns  mipBytes(*candidate.traits, texels.width, texels.height)
 std::vector<std::byte> encodeTexels(const Candidate& candidate, const StoredTexels& texels, Effort effort);

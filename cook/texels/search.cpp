@@ -137,7 +137,7 @@ ErrorSums measureMosaic(const PlainImage& image, const Candidate& candidate, con
     for (size_t i = 0; i < stored.size(); ++i)
         if (mosaic.counts[i] != 0)
         {
-            const DecodedTexel read = applySwizzle(stored[i], candidate.swizzle, 0xFFFF);
+            const DecodedTexel read = readStored(candidate, stored[i]);
             sums.all.add({&mosaic.texels[i], 1}, {&read, 1});
             if (mosaic.is_smooth[i] != 0)
                 sums.smooth.add({&mosaic.texels[i], 1}, {&read, 1});

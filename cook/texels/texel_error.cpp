@@ -147,20 +147,4 @@ uint32_t countMeasuredMips(const ImageRecord& image)
     return count;
 }
 
-DecodedTexel applySwizzle(const DecodedTexel& stored, const std::array<Swizzle, 4>& swizzle, uint16_t one)
-{
-    DecodedTexel read;
-    for (uint32_t c = 0; c < 4; ++c)
-    {
-        const auto from = static_cast<uint32_t>(swizzle[c]);
-        if (swizzle[c] == Swizzle::identity)
-            read[c] = stored[c];
-        else if (swizzle[c] == Swizzle::zero || swizzle[c] == Swizzle::one)
-            read[c] = swizzle[c] == Swizzle::one ? one : uint16_t{0};
-        else
-            read[c] = stored[from - static_cast<uint32_t>(Swizzle::red)];
-    }
-    return read;
-}
-
 } // namespace hearth::texels

@@ -53,8 +53,4 @@ double texelError(formats::ImageRole role, Channels channels, const formats::Dec
 /// or more; at least one. Each of them is what some distance shows at a texel a pixel.
 uint32_t countMeasuredMips(const formats::ImageRecord& image);
 
-/// Return the stored texel as a shader reads it.
-formats::DecodedTexel applySwizzle(const formats::DecodedTexel& stored,
-                                   const std::array<formats::Swizzle, 4>& swizzle, uint16_t one);
-
 } // namespace hearth::texels

@@ -85,12 +85,12 @@ enum class IssueClass : uint8_t
       "save the layer that is meant as an image of its own")                                                 \
     X(image_depth, 1306, warning, "an image has more bits than are kept of it",                              \
       "colours need 8 bits; save light as EXR or HDR")                                                       \
-    X(texture_target, 1309, warning, "no compressed format keeps a texture's error below its target",        \
-      "set textures.strict to keep it plain, or a lower textures.quality")                                   \
     X(image_colors, 1307, warning, "colours of an image are converted without its profile",                  \
       "save the image as RGB, or with its ICC profile")                                                      \
     X(image_reader, 1308, malformed, "the program that reads an image has failed",                           \
       "convert the image to PNG, or to EXR if it has floats")                                                \
+    X(texture_target, 1309, warning, "no compressed format keeps a texture's error below its target",        \
+      "set textures.strict to keep it plain, or a lower textures.quality")                                   \
     X(dropped, 1400, warning, "a part of the source is not kept", "")                                        \
     X(degraded, 1401, warning, "a part of the source is drawn in a simpler way", "")                         \
     X(repaired, 1402, warning, "a part of the source was repaired", "")                                      \

@@ -30,10 +30,14 @@ std::string imageErrorText(ImageRole role, double error)
 {
     if (error == 0)
         return "exact";
-    const char* const form =
-        role == ImageRole::normal ? "%.2f degrees" : role == ImageRole::light ? "%.3f stops" : "%.1f dB";
+    const double converted = convertImageError(role, error);
     char text[64];
-    std::snprintf(text, sizeof(text), form, convertImageError(role, error));
+    if (role == ImageRole::normal)
+        std::snprintf(text, sizeof(text), "%.2f degrees", converted);
+    else if (role == ImageRole::light)
+        std::snprintf(text, sizeof(text), "%.3f stops", converted);
+    else
+        std::snprintf(text, sizeof(text), "%.1f dB", converted);
     return text;
 }
 

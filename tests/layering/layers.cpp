@@ -146,7 +146,7 @@ const std::vector<Layer>& layers()
           "pipelines/command/shell", "pipelines/command/cook"}},
         {"pipelines/command/inspect",
          {"formats", "cook/json", "cook/tools", "pipelines/graph", "pipelines/report", "pipelines/verify",
-          "pipelines/command/shell", "pipelines/command/cook"}},
+          "pipelines/texture_files", "pipelines/command/shell", "pipelines/command/cook"}},
         {"pipelines/command",
          {"formats", "cook/json", "cook/tools", "pipelines/cache", "pipelines/cookers",
           "pipelines/command/shell", "pipelines/command/cook"}},

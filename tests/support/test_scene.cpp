@@ -127,6 +127,13 @@ uint32_t TestScene::addImage(TexelFormat format, uint32_t width, uint32_t height
     return countRecords(model_.images) - 1;
 }
 
+uint32_t TestScene::addImage(const ImageRecord& image, const std::vector<std::byte>& mips)
+{
+    model_.images.push_back(image);
+    model_.image_data.push_back(mips);
+    return countRecords(model_.images) - 1;
+}
+
 uint32_t TestScene::addMesh(const mesh::SourceMesh& mesh, const clusters::Config& config)
 {
     return addHierarchy(clusters::buildHierarchy(mesh, config));

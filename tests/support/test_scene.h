@@ -29,6 +29,8 @@ public:
     /// other, as many as there are texels for.
     uint32_t addImage(formats::TexelFormat format, uint32_t width, uint32_t height,
                       const std::vector<uint32_t>& texels);
+    /// Add an image of any format, with its mips as packs store them.
+    uint32_t addImage(const formats::ImageRecord& image, const std::vector<std::byte>& mips);
     /// Cook the mesh; return its index.
     uint32_t addMesh(const mesh::SourceMesh& mesh, const clusters::Config& config = {});
     uint32_t addHierarchy(const clusters::Hierarchy& hierarchy);

@@ -22,7 +22,7 @@ constexpr Families kAll{.astc = true, .etc2 = true, .bc = true};
 DecodedTexel readBack(const PlainImage& image, const Candidate& candidate, const DecodedTexel& texel)
 {
     const StoredTexels stored = arrangeChannels(image, candidate, 1, 1, std::span(&texel, 1));
-    return applySwizzle(stored.texels[0], candidate.swizzle, 0xFFFF);
+    return readStored(candidate, stored.texels[0]);
 }
 
 TEST(Candidates, everyLayoutGivesBackTheChannelsThatAreRead)

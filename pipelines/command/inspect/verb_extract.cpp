@@ -2,6 +2,7 @@
 #include "pipelines/command/inspect/extract.h"
 #include "pipelines/command/inspect/extract_bricks.h"
 #include "pipelines/command/inspect/extract_specular.h"
+#include "pipelines/command/inspect/extract_texture.h"
 #include "pipelines/command/shell/verb_tools.h"
 #include "pipelines/command/shell/verbs.h"
 
@@ -12,8 +13,8 @@ namespace hearth::command
 
 void addExtract(cli::CommandLine& app, VerbAction& run)
 {
-    cli::CommandLine& verb =
-        app.addSubcommand("extract", "Write a level of detail of a mesh as PLY, or a table as CSV");
+    cli::CommandLine& verb = app.addSubcommand(
+        "extract", "Write a level of detail of a mesh as PLY, a texture as KTX2, or a table as CSV");
     struct Options
     {
         std::string file;
@@ -22,6 +23,8 @@ void addExtract(cli::CommandLine& app, VerbAction& run)
         std::string part;
         std::string animation;
         double time = 0;
+        TextureExtraction texture;
+        std::string texel_format;
         std::string output;
     };
     auto options = std::make_shared<Options>();
@@ -36,18 +39,34 @@ void addExtract(cli::CommandLine& app, VerbAction& run)
                        "instead of a mesh; specular: its table, bricks: the faces of all solid voxels")
             .choices({"specular", "bricks"})
             .excludes(mesh);
+    const cli::Option texture =
+        verb.addOption("--texture", options->texture.texture,
+                       "instead of a mesh; a texture with its mips: its name, or its index if it has none")
+            .excludes(mesh)
+            .excludes(part);
+    verb.addOption("--as", options->texel_format, "decode the texture, for programs that lack its format")
+        .choices({"rgba8"})
+        .needs(texture);
+    verb.addFlag("--zstd", options->texture.is_compressed, "compress each mip of the texture").needs(texture);
     cli::Option animation = verb.addOption("--animation", options->animation,
                                            "clip that poses the mesh: its name, or its index if it has none");
     animation.needs(mesh);
     verb.addOption("--time", options->time, "seconds from the start of the clip").needs(animation);
-    verb.addOption("-o,--output", options->output, "PLY or CSV file to write").required();
+    verb.addOption("-o,--output", options->output, "PLY, KTX2 or CSV file to write").required();
     verb.setFooter("Example: hearth extract village.hearth --mesh 0 --error 0.01 -o cut.ply");
-    verb.setCheck([mesh, part] { return mesh.count() + part.count() == 0 ? "--mesh is required" : ""; });
+    verb.setCheck([mesh, part, texture]
+                  { return mesh.count() + part.count() + texture.count() == 0 ? "--mesh is required" : ""; });
     verb.setAction(
-        [options, part, animation, &run]
+        [options, part, texture, animation, &run]
         {
-            run = [options, part, animation]
+            run = [options, part, texture, animation]
             {
+                if (texture.count() > 0)
+                {
+                    options->texture.is_decoded = !options->texel_format.empty();
+                    const Status status = extractTexture(options->file, options->texture, options->output);
+                    return status.ok() ? 0 : printError(status.error());
+                }
                 if (part.count() > 0)
                 {
                     const Status status = options->part == "bricks"
