@@ -131,7 +131,7 @@ TEST_F(TextureUpload, everyFormatShowsItsTexels)
                   !renderer().device().texel_formats[format] && traits->family != TexelFamily::plain);
         const auto [plain, texels] = decodeImage(image, mips);
         const Image expected = drawImage(plain, texels);
-        if (width > 1)
+        if (width > 5) // else ASTC has one block, of one colour
             EXPECT_NE(std::count(expected.color.begin(), expected.color.end(), expected.color[0]), 64 * 64)
                 << "the quad is not in view";
         // a driver may decode BC with fewer bits than ours, which the display's curve stretches in the dark
