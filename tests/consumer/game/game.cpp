@@ -168,6 +168,7 @@ void draw(const std::string& path, const Device& device, const Readback& readbac
     const auto checkCall = [&](hearth_result result) { check(result, renderer.lastError()); };
 
     hearth_scene_options options = HEARTH_SCENE_OPTIONS_INIT;
+    options.flags = HEARTH_SCENE_DECODE_TEXTURES; // the pack is for phones
     hearth::Scene scene;
     device.begin();
     checkCall(hearth::Scene::upload(renderer, pack, device.commands, options, scene));
