@@ -614,9 +614,9 @@ TEST_F(SheetTest, aNormalMapBendsWhatIsLit)
     {
         const reference::DoubleAffine world(pack_->instances()[0].world_from_object);
         const auto component = [](uint32_t byte) { return byte / 255.0 * 2 - 1; };
-        p.normal =
-            normalize(world.vector({1, 0, 0}) * component(190) + world.vector({0, 1, 0}) * component(90) +
-                      world.vector({0, 0, 1}) * component(220));
+        const double x = component(190), y = component(90), z = std::sqrt(1 - x * x - y * y); // not the map's
+        p.normal = normalize(world.vector({1, 0, 0}) * x + world.vector({0, 1, 0}) * y +
+                             world.vector({0, 0, 1}) * z);
         return p;
     };
     for (const uint32_t mode :
