@@ -1,5 +1,5 @@
-// Textures of every format of packs show what our decoders say, at any size, as the device samples them or decoded
-// at load.
+// Textures of every format of packs show what our decoders say, at any size, as the device samples them or
+// decoded at load.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/texels/decode_texels.h"
 #include "tests/support/gpu_fixture.h"
