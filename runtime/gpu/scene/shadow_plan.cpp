@@ -183,7 +183,7 @@ void planLight(std::span<const ShadowCaster> casters, const ShadowOptions& optio
     const std::span finest = std::span(plan.finest_m).subspan(casters.front().row, count);
     // one eye for all faces: on both sides of a seam the casters are the same
     std::fill(finest.begin(), finest.end(), *std::min_element(finest.begin(), finest.end()));
-    plan.shadowed_lights += finest.front() > 0 ? 1 : 0;
+    plan.shadowed_lights += finest.front() > 0 ? 1u : 0u;
 }
 
 /// Return the largest step of 16-bit depths in the maps of a light, in texels.
