@@ -25,8 +25,7 @@ ChannelSplit splitChannels(const PlainImage& image)
 {
     ChannelSplit split;
     DecodedTexel values;
-    const bool is_light = image.role == ImageRole::light;
-    const Channels constant = is_light ? Channels{0} : findConstantChannels(image, values);
+    const Channels constant = findConstantChannels(image, values);
     for (uint8_t c = 0; c < 4; ++c)
     {
         const auto bit = static_cast<Channels>(1u << c);
@@ -56,7 +55,7 @@ void addConstants(const ChannelSplit& split, Candidate& candidate)
 }
 
 /// Return the number of the stored channel as the source of a swizzle.
-Swizzle readStored(uint32_t channel)
+Swizzle readFrom(uint32_t channel)
 {
     return static_cast<Swizzle>(static_cast<uint32_t>(Swizzle::red) + channel);
 }
@@ -80,7 +79,7 @@ Candidate layOutInOrder(const ChannelSplit& split, TexelFormat format)
     for (uint8_t i = 0; i < split.stored.size(); ++i)
     {
         candidate.stored[i] = split.stored[i];
-        candidate.swizzle[split.stored[i]] = i == split.stored[i] ? Swizzle::identity : readStored(i);
+        candidate.swizzle[split.stored[i]] = i == split.stored[i] ? Swizzle::identity : readFrom(i);
     }
     addConstants(split, candidate);
     return candidate;
@@ -166,6 +165,16 @@ void addBc7(const PlainImage& image, const ChannelSplit& split, std::vector<Cand
         candidates.push_back(layOutPlainly(split, is_srgb ? TexelFormat::bc7_srgb : TexelFormat::bc7_unorm));
 }
 
+/// Store no more channels than are read, with 8 bits of each.
+Candidate layOutWithoutCompression(const PlainImage& image, const ChannelSplit& split)
+{
+    if (isColor(image))
+        return layOutPlainly(split, TexelFormat::rgba8_srgb);
+    if (split.stored.size() > 2)
+        return layOutPlainly(split, TexelFormat::rgba8_unorm);
+    return layOutInOrder(split, split.stored.size() == 1 ? TexelFormat::r8_unorm : TexelFormat::rg8_unorm);
+}
+
 } // namespace
 
 bool addFamily(std::string_view name, Families& families)
@@ -189,7 +198,8 @@ std::vector<Candidate> listCandidates(const PlainImage& image, const Families& f
         if (families.bc)
             candidates.push_back(
                 {.traits = &texelTraits(TexelFormat::bc6h_ufloat), .stored = {0, 1, 2, kStoredOne}});
-        candidates.push_back(plainCandidate(image));
+        candidates.push_back(
+            {.traits = &texelTraits(TexelFormat::rgb9e5_float), .stored = {0, 1, 2, kStoredOne}});
         return candidates;
     }
     const ChannelSplit split = splitChannels(image);
@@ -203,20 +213,8 @@ std::vector<Candidate> listCandidates(const PlainImage& image, const Families& f
     if (families.astc)
         addAstc(image, split, candidates);
     std::ranges::stable_sort(candidates, {}, &Candidate::bitsPerTexel);
-    candidates.push_back(plainCandidate(image));
+    candidates.push_back(layOutWithoutCompression(image, split));
     return candidates;
-}
-
-Candidate plainCandidate(const PlainImage& image)
-{
-    if (image.role == ImageRole::light)
-        return {.traits = &texelTraits(TexelFormat::rgb9e5_float), .stored = {0, 1, 2, kStoredOne}};
-    const ChannelSplit split = splitChannels(image);
-    if (isColor(image))
-        return layOutPlainly(split, TexelFormat::rgba8_srgb);
-    if (split.stored.size() > 2)
-        return layOutPlainly(split, TexelFormat::rgba8_unorm);
-    return layOutInOrder(split, split.stored.size() == 1 ? TexelFormat::r8_unorm : TexelFormat::rg8_unorm);
 }
 
 } // namespace hearth::texels

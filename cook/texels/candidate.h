@@ -39,12 +39,9 @@ struct Families
 /// Parse the name of a family: "astc", "etc2" or "bc". False if there is none of that name.
 bool addFamily(std::string_view name, Families& families);
 
-/// Return the compressed formats that an image may get, from the fewest bits a texel on; then plain().
-/// Channels that are 0 or 1 in all texels are not stored: the view's swizzle makes them.
+/// Return the compressed formats that an image may get, from the fewest bits a texel on; the last is the one
+/// without compression, with 8 bits of each channel that is read, or RGB9E5 for light. Channels that are 0 or
+/// 1 in all texels are not stored: the view's swizzle makes them.
 std::vector<Candidate> listCandidates(const PlainImage& image, const Families& families);
-
-/// Return the format without compression, with no more channels than are read, and 8 bits of each; light
-/// gets RGB9E5.
-Candidate plainCandidate(const PlainImage& image);
 
 } // namespace hearth::texels

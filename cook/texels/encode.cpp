@@ -27,8 +27,8 @@ namespace
 // Texels that are encoded at a time: enough that threads rarely meet, few enough that they all have work.
 constexpr uint32_t kStripeTexels = 1u << 15;
 
-/// Steps of the histogram of errors of texels, a power of two.
-constexpr size_t kErrorSteps = 1u << 16;
+/// Steps of the histogram of errors of texels: finer than 8 bits, and small, since each stripe has one.
+constexpr size_t kErrorSteps = 1u << 12;
 
 /// Whole rows of blocks of a mip.
 struct Stripe

@@ -223,7 +223,7 @@ private:
 };
 
 /// Return the cheapest candidate whose estimate holds the target; their number if none does. Errors mostly
-/// fall with bytes, but not always: the neighbours of where bisection ends are tried, too.
+/// fall with bytes, but not always: the next one below those that bisection has tried is tried, too.
 size_t findCheapest(Estimates& estimates, size_t count)
 {
     const auto holds = [&](size_t i) { return estimates.get(i) <= kEstimateMargin; };

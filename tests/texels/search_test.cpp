@@ -232,7 +232,7 @@ TEST(TexelSearch, coverageIsCountedBeforeAndAfter)
     image.record.flags = kImageAlphaTested;
     image.record.alpha_cutoff = 0.5f;
     const PlainImage plain = image.plain(ImageRole::cutout, kRgb | kAlpha);
-    const Candidate same = plainCandidate(plain);
+    const Candidate same = listCandidates(plain, {}).back();
     std::vector<std::byte> texels = encodeImage(plain, same, Effort::draft);
     EXPECT_EQ(measureError(plain, {}, same, texels).coverage, 0);
     for (size_t i = 0; i < 41; ++i)

@@ -76,7 +76,7 @@ int32_t targetError(const EacTargets& targets, const std::array<int16_t, 8>& val
 
 /// Resolution of distances in units of a table's modifiers.
 constexpr int32_t kParts = 8;
-/// Greatest distance from a base, in modifiers, that is told from greater ones.
+/// Distances from a base, in modifiers, beyond which all count as one.
 constexpr int32_t kMaxDistance = 32;
 /// Greatest range of targets, in modifiers, for which a multiplier is tried. Tables span 15 to 29 of them.
 constexpr int32_t kMaxRange = 40;
