@@ -255,7 +255,7 @@ Target findTarget(ImageRole role, Effort quality)
     case ImageRole::light:
         return {pick(0.1, 0.05, 0.03), kUnlimited};
     default:
-        return {decibels(pick(34, 36.5, 42)), decibels(pick(46, 49, 53))};
+        return {decibels(pick(34, 36.5, 42)), decibels(pick(48, 53, 55))};
     }
 }
 

@@ -19,7 +19,7 @@ struct Target
 };
 
 /// Return the target of a role: peak signal-to-noise ratios of 34, 36.5, 42 dB for colours, of smooth texels
-/// 46, 49, 53; 33, 36, 40 for data; 4.5, 3, 2 degrees for normals; .1, .05, .03 stops for light. Measured
+/// 48, 53, 55; 33, 36, 40 for data; 4.5, 3, 2 degrees for normals; .1, .05, .03 stops for light. Measured
 /// over four mips, of which the coarser ones lose more: the finest mip is 1 to 5 dB better.
 Target findTarget(formats::ImageRole role, Effort quality);
 
