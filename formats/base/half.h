@@ -9,6 +9,7 @@ namespace hearth
 {
 
 inline constexpr float kHalfMax = 65504.0f;
+inline constexpr uint16_t kHalfOne = 0x3C00; ///< 1 as a half
 
 /// Return the half nearest to `value`. Values outside the range become +-65504 and NaN becomes 0: a stored
 /// image is finite.

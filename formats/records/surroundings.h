@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "formats/base/half.h"
 #include "formats/records/container.h"
 
 namespace hearth::formats
@@ -26,9 +27,6 @@ struct SurroundingsRecord
     /// Half floats, for the terms of a world direction: the instance's visibility over that of its mesh.
     uint16_t visibility[kDirectionTerms];
 };
-
-/// Half float 1.
-inline constexpr uint16_t kHalfOne = 0x3C00;
 
 /// Surroundings as those of all instances of the mesh, and no occluders.
 inline constexpr SurroundingsRecord kPlainSurroundings{kInvalidIndex, {0, 0, 0, kHalfOne}};

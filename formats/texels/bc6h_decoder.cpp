@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/texels/bc6h_decoder.h"
 
+#include "formats/base/half.h"
 #include "formats/texels/bc6h_modes.h"
 #include "formats/texels/block_bits.h"
 #include "formats/texels/bptc_tables.h"
@@ -12,8 +13,6 @@ namespace hearth::formats
 
 namespace
 {
-
-constexpr uint16_t kHalfOne = 0x3C00;
 
 /// [variable]: endpoints as stored, later unquantised. See Bc6hVariable.
 using Variables = std::array<int32_t, 12>;

@@ -3,7 +3,7 @@
 
 #include "formats/base/atomic_file.h"
 #include "formats/base/nearest_match.h"
-#include "formats/texels/decode_texels.h"
+#include "formats/texels/decode_image.h"
 #include "formats/texels/swizzle.h"
 #include "pipelines/command/inspect/open_pack.h"
 #include "pipelines/texture_files/ktx2_writer.h"
@@ -53,18 +53,11 @@ std::string swizzleText(const ImageRecord& image)
 /// Return all mips as RGBA8, as shaders read them.
 std::vector<std::byte> decodeMips(const ImageRecord& image, std::span<const std::byte> mips)
 {
-    const TexelFormatTraits& traits = *findTexelFormat(image.format);
     std::vector<std::byte> bytes;
     for (uint32_t mip = 0; mip < image.mip_count; ++mip)
-    {
-        const MipExtent extent = mipExtent(image, mip);
-        const auto first = static_cast<size_t>(mipOffset(image, mip));
-        const auto size = static_cast<size_t>(mipBytes(traits, extent.width, extent.height));
-        for (const DecodedTexel& stored :
-             decodeMip(traits, extent.width, extent.height, mips.subspan(first, size)))
+        for (const DecodedTexel& stored : decodeImageMip(image, mips, mip))
             for (const uint16_t channel : applySwizzle(stored, image.swizzle, 0xFFFF))
                 bytes.push_back(std::byte{narrowUnorm(channel)});
-    }
     return bytes;
 }
 

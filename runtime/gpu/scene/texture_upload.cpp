@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/scene/texture_upload.h"
 
-#include "formats/texels/decode_texels.h"
+#include "formats/texels/decode_image.h"
 
 #include <algorithm>
 #include <cstring>
@@ -50,17 +50,9 @@ void appendTexels(const TexelFormatTraits& traits, std::span<const DecodedTexel>
 std::vector<std::byte> decodeMips(const formats::ImageRecord& record, std::span<const std::byte> stored,
                                   const TexelFormatTraits& target)
 {
-    const TexelFormatTraits& traits = *formats::findTexelFormat(record.format);
     std::vector<std::byte> bytes;
     for (uint32_t mip = 0; mip < record.mip_count; ++mip)
-    {
-        const formats::MipExtent extent = formats::mipExtent(record, mip);
-        const auto first = static_cast<size_t>(formats::mipOffset(record, mip));
-        const auto size = static_cast<size_t>(formats::mipBytes(traits, extent.width, extent.height));
-        appendTexels(target,
-                     formats::decodeMip(traits, extent.width, extent.height, stored.subspan(first, size)),
-                     bytes);
-    }
+        appendTexels(target, formats::decodeImageMip(record, stored, mip), bytes);
     return bytes;
 }
 

@@ -117,7 +117,7 @@ TEST_F(ServerCache, aChangeCooksWhatReadItAndFetchesTheRest)
     Checkout second;
     second.folder.write("house.tga", tgaImage(7));
     const ProgramEnd end = second.cookWith(server->url());
-    EXPECT_EQ(ranIn(end), 5u) << end.err;
+    EXPECT_EQ(ranIn(end), 6u) << end.err;
     EXPECT_EQ(countOccurrences(end.err, "tree.gltf\n"), 0u) << end.err;
     Checkout third;
     third.folder.write("house.tga", tgaImage(7));
@@ -153,7 +153,7 @@ TEST_F(ServerCache, full)
         second.folder.write("house.tga", tgaImage(9));
         const ProgramEnd end = second.cookWith(server->url());
         EXPECT_EQ(end.exit_code, 0) << end.err;
-        EXPECT_EQ(ranIn(end), 5u) << "what is there is still taken: " << end.err;
+        EXPECT_EQ(ranIn(end), 6u) << "what is there is still taken: " << end.err;
         EXPECT_EQ(countOccurrences(end.err, "W4100"), 1u) << end.err;
         EXPECT_NE(end.err.find("nothing more is put there"), std::string::npos) << end.err;
     }

@@ -213,7 +213,7 @@ TEST_F(StonesTest, thatAreAlikeKeepTheMean)
     std::vector<formats::SurroundingsRecord> records(2, formats::kPlainSurroundings);
     const InstanceSpread spread = fitInstances(world_, surface(), alike, 1e6, {}, records);
     EXPECT_EQ(spread.changed_instances, 0u);
-    EXPECT_EQ(records[0].visibility[3], formats::kHalfOne);
+    EXPECT_EQ(records[0].visibility[3], kHalfOne);
     EXPECT_LT(spread.of_mean, 0.03);
 }
 

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/reference/tracer/texture_lookup.h"
 
+#include "formats/base/half.h"
+#include "formats/texels/decode_image.h"
+#include "formats/texels/swizzle.h"
 #include "tests/reference/png_image.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace hearth::reference
 {
@@ -55,8 +57,11 @@ Result<TextureSet> TextureSet::load(const PackView& view)
     TextureSet set(view);
     for (uint32_t i = 0; i < view.images().size(); ++i)
     {
-        HEARTH_ASSIGN_OR_RETURN(ChunkData data, view.imageData(i));
-        set.images_.push_back(std::move(data));
+        HEARTH_ASSIGN_OR_RETURN(const ChunkData data, view.imageData(i));
+        const ImageRecord& record = view.images()[i];
+        std::vector<std::vector<DecodedTexel>>& mips = set.images_.emplace_back();
+        for (uint32_t mip = 0; mip < record.mip_count; ++mip)
+            mips.push_back(decodeImageMip(record, data.bytes(), mip));
     }
     return set;
 }
@@ -64,22 +69,15 @@ Result<TextureSet> TextureSet::load(const PackView& view)
 Rgba TextureSet::texel(uint32_t image, uint32_t mip, int64_t x, int64_t y) const
 {
     const ImageRecord& record = view_->images()[image];
+    const TexelCoding coding = findTexelFormat(record.format)->coding;
+    const bool is_float = coding == TexelCoding::float_value;
     const uint64_t index = static_cast<uint64_t>(y) * mipExtent(record, mip).width + static_cast<uint64_t>(x);
-    const std::byte* const at =
-        images_[image].bytes().data() + mipOffset(record, mip) + index * texelBytes(record.format);
+    const DecodedTexel texel =
+        applySwizzle(images_[image][mip][index], record.swizzle, is_float ? kHalfOne : uint16_t{0xFFFF});
     double c[4];
-    const auto format = static_cast<TexelFormat>(record.format);
-    if (format == TexelFormat::rgba16_float || format == TexelFormat::rgba16_unorm)
-    {
-        uint16_t words[4];
-        std::memcpy(words, at, sizeof(words));
-        std::transform(words, words + 4, c,
-                       [&](uint16_t w)
-                       { return format == TexelFormat::rgba16_float ? decodeHalf(w) : w / 65535.0; });
-    }
-    else
-        std::transform(at, at + 4, c, [](std::byte b) { return std::to_integer<int>(b) / 255.0; });
-    if (format == TexelFormat::rgba8_srgb)
+    std::transform(texel.begin(), texel.end(), c,
+                   [&](uint16_t word) { return is_float ? decodeHalf(word) : word / 65535.0; });
+    if (coding == TexelCoding::srgb)
         std::transform(c, c + 3, c, linearFromSrgb);
     return {{c[0], c[1], c[2]}, c[3]};
 }

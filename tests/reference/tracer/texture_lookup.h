@@ -3,6 +3,7 @@
 #pragma once
 
 #include "formats/pack/pack_view.h"
+#include "formats/texels/decoded_texel.h"
 #include "tests/reference/double3.h"
 
 #include <vector>
@@ -33,7 +34,7 @@ private:
     Rgba bilinear(const formats::TextureRef& texture, uint32_t mip, double u, double v) const;
 
     const formats::PackView* view_;
-    std::vector<formats::ChunkData> images_;
+    std::vector<std::vector<std::vector<formats::DecodedTexel>>> images_; ///< by image, mip, texel
 };
 
 } // namespace hearth::reference
