@@ -93,7 +93,8 @@ std::vector<ValueTable> valueTables()
 {
     return {
         {"Codec",
-         {value("none", Codec::none, "the bytes as they are"), value("zstd", Codec::zstd, "one zstd frame")}},
+         {value("none", Codec::none, "the bytes as they are"), value("zstd", Codec::zstd, "one zstd frame"),
+          value("zstd_frames", Codec::zstd_frames, "zstd frames one after another")}},
         {"InstanceFlags",
          {value("mirrored", kInstanceMirrored, "the determinant of world_from_object is negative")}},
         {"CameraType",

@@ -4,6 +4,7 @@
 #include "cook/texels/role.h"
 #include "formats/container/container_reader.h"
 #include "formats/container/container_writer.h"
+#include "formats/pack/image_data.h"
 #include "formats/pack/pack_check.h"
 
 namespace hearth::texels
@@ -94,8 +95,8 @@ Status cookTexels(const std::string& import_path, const std::string& textures_pa
         const Target target = findTarget(image.role, options.quality);
         const Encoding encoding = encodeForTarget(image, listCandidates(image, options.families), target,
                                                   options.quality, options.strict);
-        HEARTH_TRY(writer.addChunk({.type = kChunkImageData, .index = i}, encoding.texels, 1, Codec::zstd));
         records.push_back(describe(image, encoding));
+        HEARTH_TRY(addImageData(writer, i, records.back(), encoding.texels));
         results.push_back({.name = std::string(import_part.text(image.record.name)),
                            .record = records.back(),
                            .target = target.error,

@@ -5,6 +5,7 @@
 #include "cook/textures/texel_codec.h"
 #include "formats/container/container_reader.h"
 #include "formats/container/container_writer.h"
+#include "formats/pack/image_data.h"
 #include "formats/pack/image_uses.h"
 #include "formats/pack/pack_view.h"
 #include "formats/records/scene.h"
@@ -140,12 +141,12 @@ Status cookTextures(const std::string& import_path, const std::string& output_pa
         const std::vector<std::byte> chain = buildMipChain(images[i], std::move(texels), limits.max_bits);
         images[i].format = format;
         const uint32_t skipped_mips = countTooLargeMips(images[i], limits.max_size);
-        HEARTH_TRY(writer.addChunk({.type = kChunkImageData, .index = i},
-                                   std::span(chain).subspan(mipOffset(images[i], skipped_mips)), 1,
-                                   Codec::zstd));
+        const ImageRecord kept = withoutMips(images[i], skipped_mips);
+        HEARTH_TRY(
+            addImageData(writer, i, kept, std::span(chain).subspan(mipOffset(images[i], skipped_mips))));
         if (statistics != nullptr)
             statistics->push_back(computeStatistics(names, images[i], chain, skipped_mips, imported));
-        images[i] = withoutMips(images[i], skipped_mips);
+        images[i] = kept;
     }
     HEARTH_TRY(writer.addRecords<ImageRecord>(kChunkImages, images));
     HEARTH_TRY(writer.finish());

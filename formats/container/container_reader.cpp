@@ -39,7 +39,7 @@ std::pair<uint32_t, uint32_t> chunkKey(const ChunkEntry& entry)
     return {entry.type, entry.index};
 }
 
-/// True if decompress() succeeds, tested with a small buffer.
+/// True if decompress() of a single frame succeeds, tested with a small buffer.
 bool decompressesTo(std::span<const std::byte> stored, uint64_t size)
 {
     if (!isSingleFrame(stored, size))
@@ -60,6 +60,54 @@ bool decompressesTo(std::span<const std::byte> stored, uint64_t size)
         if (out.pos == 0 && in.pos == in.size)
             return false;
     }
+}
+
+/// Call function(stored, size of the content) for each frame until it returns false.
+/// returns  true if it never did, and the frames cover `stored` and have `size` bytes of content together
+template <typename Function>
+bool forEachFrame(std::span<const std::byte> stored, uint64_t size, const Function& function)
+{
+    while (!stored.empty())
+    {
+        const size_t frame = ZSTD_findFrameCompressedSize(stored.data(), stored.size());
+        const unsigned long long content = ZSTD_getFrameContentSize(stored.data(), stored.size());
+        if (ZSTD_isError(frame) || content == 0 || content > size || !function(stored.first(frame), content))
+            return false;
+        stored = stored.subspan(frame);
+        size -= content;
+    }
+    return size == 0;
+}
+
+bool areFrames(std::span<const std::byte> stored, uint64_t size)
+{
+    return forEachFrame(stored, size, isSingleFrame);
+}
+
+/// Decompress all frames into `out`, which their contents fill.
+bool decompressFrames(std::span<const std::byte> stored, std::span<std::byte> out)
+{
+    return forEachFrame(stored, out.size(),
+                        [&](std::span<const std::byte> frame, uint64_t size)
+                        {
+                            const bool is_decoded = decompress(frame, out.first(static_cast<size_t>(size)));
+                            out = out.subspan(static_cast<size_t>(size));
+                            return is_decoded;
+                        });
+}
+
+bool isDecodable(std::span<const std::byte> stored, Codec codec, uint64_t size)
+{
+    switch (codec)
+    {
+    case Codec::none:
+        return true;
+    case Codec::zstd:
+        return decompressesTo(stored, size);
+    case Codec::zstd_frames:
+        return forEachFrame(stored, size, decompressesTo);
+    }
+    return false;
 }
 
 } // namespace
@@ -181,7 +229,8 @@ Status ContainerReader::checkStructure()
             !allZero(std::as_bytes(std::span(entry.reserved))))
             return fail(Issue::container_table, "the table's entry is not valid", where);
         const bool stored = entry.codec == static_cast<uint32_t>(Codec::none);
-        if ((stored && entry.size != entry.stored_size) || (!stored && entry.codec != uint32_t(Codec::zstd)))
+        if (stored ? entry.size != entry.stored_size
+                   : entry.codec > static_cast<uint32_t>(Codec::zstd_frames))
             return fail(Issue::container_table, "sizes and codec do not agree", where);
         at += entry.stored_size;
     }
@@ -251,14 +300,15 @@ Result<ChunkData> ContainerReader::read(uint32_t type, uint32_t index) const
     {
         std::byte bytes[kChunkAlignment];
     };
-    if (!isSingleFrame(bytes, entry->size))
+    const bool is_one_frame = entry->codec == static_cast<uint32_t>(Codec::zstd);
+    if (is_one_frame ? !isSingleFrame(bytes, entry->size) : !areFrames(bytes, entry->size))
         return Error{Issue::chunk_codec, name_, chunkName(type, index), ""};
     // not set to zero: the system hands out memory as decoded bytes arrive, not by what the table claims
     const size_t block_count = static_cast<size_t>((entry->size + kChunkAlignment - 1) / kChunkAlignment);
     const std::shared_ptr<Block[]> blocks(new Block[block_count]);
     const std::span<std::byte> out(reinterpret_cast<std::byte*>(blocks.get()),
                                    static_cast<size_t>(entry->size));
-    if (!decompress(bytes, out))
+    if (is_one_frame ? !decompress(bytes, out) : !decompressFrames(bytes, out))
         return Error{Issue::chunk_codec, name_, chunkName(type, index), ""};
     return ChunkData(out, blocks);
 }
@@ -282,7 +332,7 @@ Status ContainerReader::checkDecodes(const ChunkEntry& entry) const
     const std::span<const std::byte> bytes = stored(entry);
     if (check_ == Check::structure && hashBytes(bytes) != entry.hash)
         return Error{Issue::chunk_hash, name_, chunkName(entry.type, entry.index), ""};
-    if (entry.codec == static_cast<uint32_t>(Codec::zstd) && !decompressesTo(bytes, entry.size))
+    if (!isDecodable(bytes, static_cast<Codec>(entry.codec), entry.size))
         return Error{Issue::chunk_codec, name_, chunkName(entry.type, entry.index), ""};
     return success();
 }

@@ -26,6 +26,16 @@ constexpr int kZstdLevel = 9;
 
 constexpr std::byte kZeros[kChunkAlignment] = {};
 
+/// Return the bytes as one frame.
+std::vector<std::byte> compress(std::span<const std::byte> bytes)
+{
+    std::vector<std::byte> packed(ZSTD_compressBound(bytes.size()));
+    const size_t size = ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), kZstdLevel);
+    HEARTH_ASSERT(!ZSTD_isError(size));
+    packed.resize(size);
+    return packed;
+}
+
 } // namespace
 
 struct ContainerWriter::State
@@ -103,14 +113,11 @@ Status ContainerWriter::addChunk(ChunkId id, std::span<const std::byte> bytes, u
 {
     if (codec == Codec::zstd && !bytes.empty())
     {
-        std::vector<std::byte> packed(ZSTD_compressBound(bytes.size()));
-        const size_t size =
-            ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), kZstdLevel);
-        HEARTH_ASSERT(!ZSTD_isError(size));
-        if (size < bytes.size())
+        const std::vector<std::byte> packed = compress(bytes);
+        if (packed.size() < bytes.size())
         {
             HEARTH_TRY(beginChunk(id, element_size));
-            HEARTH_TRY(append(std::span(packed).first(size)));
+            HEARTH_TRY(append(packed));
             ChunkEntry& entry = state_->table.back();
             entry.codec = static_cast<uint32_t>(Codec::zstd);
             entry.size = bytes.size();
@@ -119,6 +126,23 @@ Status ContainerWriter::addChunk(ChunkId id, std::span<const std::byte> bytes, u
     }
     HEARTH_TRY(beginChunk(id, element_size));
     HEARTH_TRY(append(bytes));
+    return endChunk();
+}
+
+Status ContainerWriter::addFrames(ChunkId id, std::span<const std::byte> bytes,
+                                  std::span<const uint32_t> sizes)
+{
+    HEARTH_TRY(beginChunk(id, 1));
+    size_t at = 0;
+    for (const uint32_t size : sizes)
+    {
+        HEARTH_TRY(append(compress(bytes.subspan(at, size))));
+        at += size;
+    }
+    HEARTH_ASSERT(at == bytes.size());
+    ChunkEntry& entry = state_->table.back();
+    entry.codec = static_cast<uint32_t>(Codec::zstd_frames);
+    entry.size = bytes.size();
     return endChunk();
 }
 

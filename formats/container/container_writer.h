@@ -35,6 +35,10 @@ public:
     /// Add a whole chunk. `element_size` divides bytes.size().
     Status addChunk(ChunkId id, std::span<const std::byte> bytes, uint32_t element_size, Codec codec);
 
+    /// Add a chunk as frames, which can be decompressed one by one (Codec::zstd_frames).
+    /// sizes  bytes of each frame's content, > 0; they add up to bytes.size()
+    Status addFrames(ChunkId id, std::span<const std::byte> bytes, std::span<const uint32_t> sizes);
+
     template <typename T>
     Status addRecords(uint32_t type, std::span<const T> records, Codec codec = Codec::zstd,
                       uint32_t index = 0)

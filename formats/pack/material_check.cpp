@@ -3,6 +3,7 @@
 #include "formats/codecs/channel_keys.h"
 #include "formats/pack/check_tools.h"
 #include "formats/pack/pack_check.h"
+#include "formats/pack/texture_pieces.h"
 #include "formats/records/animation_paths.h"
 
 #include <bit>
@@ -86,7 +87,7 @@ Status checkEncoding(const PackView& view, uint32_t i)
     if (!isNonNegative(image.error) || !isNonNegative(image.error_p999) ||
         !isNonNegative(image.error_smooth) || !inside(image.coverage_error, 0, 1))
         return makeError(view, Issue::meaning_value, "image", i, "an error is negative or not finite");
-    if (!reservedZero(image.reserved_bytes) || !reservedZero(image.reserved))
+    if (!reservedZero(image.reserved_bytes))
         return makeError(view, Issue::meaning_padding, "image", i, "a reserved field is not 0");
     return success();
 }
@@ -117,6 +118,52 @@ Status checkImage(const PackView& view, uint32_t i, BulkData bulk)
                      std::to_string(data->size) + " bytes, its image has " +
                          std::to_string(mipOffset(image, image.mip_count))};
     return bulk == BulkData::read ? view.container().checkDecodes(*data) : success();
+}
+
+/// Check that the pieces of an image are those of its size and format, and cover its chunk.
+Status checkPieces(const PackView& view, uint32_t i)
+{
+    const ImageRecord& image = view.images()[i];
+    const ChunkEntry& data = *view.container().find(kChunkImageData, i);
+    const std::vector<TexturePiece> pieces = listTexturePieces(image);
+    if (pieces.size() != image.pieces.count)
+        return makeError(view, Issue::meaning_range, "image", i,
+                         std::to_string(image.pieces.count) + " pieces, its size and format have " +
+                             std::to_string(pieces.size()));
+    uint64_t offset = 0;
+    for (uint32_t k = 0; k < pieces.size(); ++k)
+    {
+        const TexturePieceRecord& record = view.texturePieces()[image.pieces.first + k];
+        if (record.offset != offset || record.size != pieces[k].size)
+            return makeError(view, Issue::meaning_value, "texture piece", image.pieces.first + k,
+                             "it does not follow the piece before, or has another size");
+        offset += record.stored_size;
+    }
+    if (offset != data.stored_size || data.codec != static_cast<uint32_t>(Codec::zstd_frames))
+        return Error{Issue::chunk_size, view.name(), chunkName(kChunkImageData, i),
+                     "its pieces do not cover it"};
+    return success();
+}
+
+/// Check that the images that have pieces share the table of pieces, in order.
+Status checkTexturePieces(const PackView& view)
+{
+    uint32_t next = 0;
+    for (uint32_t i = 0; i < view.images().size(); ++i)
+    {
+        const Range& pieces = view.images()[i].pieces;
+        if (pieces.count == 0 && pieces.first == 0)
+            continue;
+        if (pieces.first != next || !isInsideTable(pieces, view.texturePieces().size()))
+            return makeError(view, Issue::meaning_range, "image", i,
+                             "its pieces do not follow those of the image before");
+        HEARTH_TRY(checkPieces(view, i));
+        next += pieces.count;
+    }
+    if (next != view.texturePieces().size())
+        return Error{Issue::meaning_range, view.name(), chunkName(kChunkTexturePieces, 0),
+                     "pieces belong to no image"};
+    return success();
 }
 
 Status checkJoint(const PackView& view, size_t i)
@@ -325,7 +372,7 @@ Status checkImages(const PackView& view, BulkData bulk)
 {
     for (uint32_t i = 0; i < view.images().size(); ++i)
         HEARTH_TRY(checkImage(view, i, bulk));
-    return success();
+    return checkTexturePieces(view);
 }
 
 Status checkSkins(const PackView& view)

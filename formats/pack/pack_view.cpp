@@ -145,6 +145,29 @@ Result<ChunkData> PackView::imageData(uint32_t image) const
     return reader_.read(kChunkImageData, image);
 }
 
+Status PackView::decodePiece(uint32_t image, uint32_t piece, std::span<std::byte> out) const
+{
+    const std::string where = "piece " + std::to_string(piece) + " of image " + std::to_string(image);
+    const ChunkEntry* const chunk = reader_.find(kChunkImageData, image);
+    if (chunk == nullptr)
+        return Error{Issue::chunk_missing, name(), chunkName(kChunkImageData, image), ""};
+    if (piece >= texturePieces().size())
+        return Error{Issue::meaning_reference, name(), where,
+                     "there are " + std::to_string(texturePieces().size()) + " pieces"};
+    const TexturePieceRecord& record = texturePieces()[piece];
+    if (record.size != out.size())
+        return Error{Issue::meaning_value, name(), where, "a size of " + std::to_string(record.size)};
+    const auto stored = checkedPart(reader_.stored(*chunk), record.offset, record.stored_size);
+    if (!stored)
+        return Error{Issue::meaning_range, name(), where,
+                     "it lies outside " + chunkName(kChunkImageData, image)};
+    if (hashBytes(*stored) != record.hash)
+        return Error{Issue::page_hash, name(), where, ""};
+    if (!decompress(*stored, out))
+        return Error{Issue::chunk_codec, name(), where, ""};
+    return success();
+}
+
 /// Return the stored bytes of a page, their hash checked; `size` is the size after decoding.
 Result<std::span<const std::byte>> PackView::storedPage(uint32_t page, size_t size) const
 {

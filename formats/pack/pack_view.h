@@ -332,6 +332,8 @@ public:
     /// Return the layers of the materials that have some, sorted by material.
     std::span<const MaterialLayersRecord> materialLayers() const { return material_layers_.records.span(); }
     std::span<const ImageRecord> images() const { return images_.records.span(); }
+    /// Return the pieces of the texels of all images, in the order of the images.
+    std::span<const TexturePieceRecord> texturePieces() const { return texture_pieces_.records.span(); }
     std::span<const SkinRecord> skins() const { return skins_.records.span(); }
     std::span<const JointRecord> joints() const { return joints_.records.span(); }
     std::span<const AnimationRecord> animations() const { return animations_.records.span(); }
@@ -379,6 +381,12 @@ public:
     /// ContainerReader::read.
     Result<ChunkData> imageData(uint32_t image) const;
 
+    /// Decode a piece of an image's texels into `out`, of the size of its record. Thread-safe; `out` is only
+    /// written. errors: meaning_reference, chunk_missing, meaning_range, meaning_value, page_hash,
+    /// chunk_codec.
+    /// piece  of texturePieces(), of this image
+    Status decodePiece(uint32_t image, uint32_t piece, std::span<std::byte> out) const;
+
     /// Decode a page into `out`, whose size is the page's. Thread-safe. If pages are checked when they are
     /// read, `out` is only written, from front to back, and not written at all after an error.
     /// errors: meaning_reference, meaning_range, meaning_value, page_hash, chunk_codec; and the errors of its
@@ -408,12 +416,12 @@ private:
     auto tables()
     {
         return std::tie(assets_, extras_, nodes_, instances_, cameras_, lights_, shadow_spheres_, materials_,
-                        material_layers_, images_, skins_, joints_, animations_, channels_, keys_, key_bits_,
-                        morph_weights_, meshes_, levels_, groups_, clusters_, pages_, page_parents_,
-                        authored_levels_, deformed_meshes_, deformed_clusters_, cluster_joints_,
-                        specular_tables_, surroundings_, radiance_transfers_, brick_grid_, brick_groups_,
-                        bricks_, brick_opacity_, brick_albedo_, brick_normals_, brick_emission_,
-                        brick_lighting_, reflectors_);
+                        material_layers_, images_, texture_pieces_, skins_, joints_, animations_, channels_,
+                        keys_, key_bits_, morph_weights_, meshes_, levels_, groups_, clusters_, pages_,
+                        page_parents_, authored_levels_, deformed_meshes_, deformed_clusters_,
+                        cluster_joints_, specular_tables_, surroundings_, radiance_transfers_, brick_grid_,
+                        brick_groups_, bricks_, brick_opacity_, brick_albedo_, brick_normals_,
+                        brick_emission_, brick_lighting_, reflectors_);
     }
     static std::string_view asText(const ChunkData& data)
     {
@@ -433,6 +441,7 @@ private:
     Table<MaterialRecord> materials_{kChunkMaterials};
     Table<MaterialLayersRecord> material_layers_{kChunkMaterialLayers};
     Table<ImageRecord> images_{kChunkImages};
+    Table<TexturePieceRecord> texture_pieces_{kChunkTexturePieces};
     Table<SkinRecord> skins_{kChunkSkins};
     Table<JointRecord> joints_{kChunkJoints};
     Table<AnimationRecord> animations_{kChunkAnimations};

@@ -54,6 +54,7 @@ enum class Codec : uint32_t
 {
     none = 0,
     zstd = 1,
+    zstd_frames = 2, ///< one after another, each with the size of its content
 };
 
 struct FileHeader

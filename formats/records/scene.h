@@ -22,6 +22,7 @@ inline constexpr uint32_t kChunkLights = fourCC("LGHT");        ///< LightRecord
 inline constexpr uint32_t kChunkShadowSpheres = fourCC("SHSP"); ///< ShadowSphereRecord[]
 inline constexpr uint32_t kChunkMaterials = fourCC("MATL");     ///< MaterialRecord[]
 inline constexpr uint32_t kChunkImages = fourCC("IMGR");        ///< ImageRecord[]
+inline constexpr uint32_t kChunkTexturePieces = fourCC("TXPG"); ///< TexturePieceRecord[]
 inline constexpr uint32_t kChunkImageData = fourCC("IMGD");     ///< texels of image `index`, finest mip first
 inline constexpr uint32_t kChunkSkins = fourCC("SKIN");         ///< SkinRecord[]
 inline constexpr uint32_t kChunkJoints = fourCC("JOIN");        ///< JointRecord[]
@@ -226,7 +227,17 @@ struct ImageRecord
     float error_p999;
     float error_smooth;
     float coverage_error;
-    uint32_t reserved[2];
+    Range pieces; ///< none: the texels are read as a whole
+};
+
+/// Piece of an image's texels: a zstd frame of the image's chunk. Its place in the image follows from the
+/// image's size and format: see formats/pack/texture_pieces.h.
+struct TexturePieceRecord
+{
+    uint64_t offset;
+    uint32_t stored_size;
+    uint32_t size;
+    uint64_t hash;
 };
 
 struct SkinRecord
@@ -400,7 +411,12 @@ HEARTH_RECORD(
                  "as error, of texels in cells of 4 x 4 that span 4 of 255 codes at most; 0: there are few"),
     HEARTH_FIELD(hearth::formats::ImageRecord, coverage_error,
                  "largest change of the share of texels that pass the alpha test, of a mip of 0 to 3"),
-    HEARTH_FIELD(hearth::formats::ImageRecord, reserved, "0"));
+    HEARTH_FIELD(hearth::formats::ImageRecord, pieces, "records of chunk TXPG, or none"));
+HEARTH_RECORD(hearth::formats::TexturePieceRecord, 24,
+              HEARTH_FIELD(hearth::formats::TexturePieceRecord, offset, "in the image's chunk IMGD"),
+              HEARTH_FIELD(hearth::formats::TexturePieceRecord, stored_size, "bytes"),
+              HEARTH_FIELD(hearth::formats::TexturePieceRecord, size, "bytes of texels"),
+              HEARTH_FIELD(hearth::formats::TexturePieceRecord, hash, "XXH3 of the stored bytes"));
 HEARTH_RECORD(hearth::formats::SkinRecord, 24,
               HEARTH_FIELD(hearth::formats::SkinRecord, name, "may be empty"),
               HEARTH_FIELD(hearth::formats::SkinRecord, skeleton_root, "node, or none"),

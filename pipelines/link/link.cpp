@@ -2,6 +2,7 @@
 #include "pipelines/link/link.h"
 
 #include "formats/container/container_writer.h"
+#include "formats/pack/image_data.h"
 #include "formats/pack/instance_meshes.h"
 #include "formats/pack/pack_check.h"
 #include "pipelines/link/asset_bounds.h"
@@ -291,17 +292,23 @@ Status writeMaterialLayers(ContainerWriter& writer, std::span<const Source> sour
     return merged.empty() ? success() : writer.addRecords<MaterialLayersRecord>(kChunkMaterialLayers, merged);
 }
 
-/// Write the images of the pack.
+/// Write the images of the pack, and where the pieces of their texels are.
 Status writeImages(ContainerWriter& writer, std::span<const Source> sources, const ImageTable& images)
 {
     std::vector<ImageRecord> records;
+    std::vector<TexturePieceRecord> pieces;
     for (const ImagePlace& place : images.places())
     {
         ImageRecord record = sources[place.source].textures_part.images()[place.image];
         rebase(record, sources[place.source].offsets);
+        HEARTH_ASSIGN_OR_RETURN(const std::vector<TexturePieceRecord> own,
+                                readPieces(sources[place.source].textures_part, place.image));
+        record.pieces = {static_cast<uint32_t>(pieces.size()), static_cast<uint32_t>(own.size())};
+        pieces.insert(pieces.end(), own.begin(), own.end());
         records.push_back(record);
     }
-    return writer.addRecords<ImageRecord>(kChunkImages, records);
+    HEARTH_TRY(writer.addRecords<ImageRecord>(kChunkImages, records));
+    return writer.addRecords<TexturePieceRecord>(kChunkTexturePieces, pieces);
 }
 
 /// Write the instances of all sources with the meshes that they draw: those of the source, or copies.

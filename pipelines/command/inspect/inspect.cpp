@@ -314,6 +314,8 @@ const char* codecName(uint32_t codec)
         return "none";
     case Codec::zstd:
         return "zstd";
+    case Codec::zstd_frames:
+        return "zstd frames";
     }
     return "unknown";
 }
