@@ -145,19 +145,18 @@ Status checkPieces(const PackView& view, uint32_t i)
     return success();
 }
 
-/// Check that the images that have pieces share the table of pieces, in order.
+/// Check that the images share the table of pieces, in order.
 Status checkTexturePieces(const PackView& view)
 {
     uint32_t next = 0;
     for (uint32_t i = 0; i < view.images().size(); ++i)
     {
         const Range& pieces = view.images()[i].pieces;
-        if (pieces.count == 0 && pieces.first == 0)
-            continue;
         if (pieces.first != next || !isInsideTable(pieces, view.texturePieces().size()))
             return makeError(view, Issue::meaning_range, "image", i,
                              "its pieces do not follow those of the image before");
-        HEARTH_TRY(checkPieces(view, i));
+        if (pieces.count > 0)
+            HEARTH_TRY(checkPieces(view, i));
         next += pieces.count;
     }
     if (next != view.texturePieces().size())

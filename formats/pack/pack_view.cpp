@@ -145,25 +145,26 @@ Result<ChunkData> PackView::imageData(uint32_t image) const
     return reader_.read(kChunkImageData, image);
 }
 
-Status PackView::decodePiece(uint32_t image, uint32_t piece, std::span<std::byte> out) const
+uint32_t PackView::findPieceImage(uint32_t piece) const
 {
-    const std::string where = "piece " + std::to_string(piece) + " of image " + std::to_string(image);
-    const ChunkEntry* const chunk = reader_.find(kChunkImageData, image);
-    if (chunk == nullptr)
-        return Error{Issue::chunk_missing, name(), chunkName(kChunkImageData, image), ""};
-    if (piece >= texturePieces().size())
-        return Error{Issue::meaning_reference, name(), where,
-                     "there are " + std::to_string(texturePieces().size()) + " pieces"};
+    const auto after =
+        std::ranges::upper_bound(images(), piece, {}, [](const ImageRecord& i) { return i.pieces.first; });
+    return static_cast<uint32_t>(after - images().begin()) - 1;
+}
+
+Status PackView::decodePiece(uint32_t piece, std::span<std::byte> out) const
+{
+    const uint32_t image = findPieceImage(piece);
+    const std::string where = "piece " + std::to_string(piece) + ", of image " + std::to_string(image);
     const TexturePieceRecord& record = texturePieces()[piece];
     if (record.size != out.size())
         return Error{Issue::meaning_value, name(), where, "a size of " + std::to_string(record.size)};
-    const auto stored = checkedPart(reader_.stored(*chunk), record.offset, record.stored_size);
-    if (!stored)
-        return Error{Issue::meaning_range, name(), where,
-                     "it lies outside " + chunkName(kChunkImageData, image)};
-    if (hashBytes(*stored) != record.hash)
+    const std::span<const std::byte> chunk = reader_.stored(*reader_.find(kChunkImageData, image));
+    const std::span<const std::byte> stored =
+        chunk.subspan(static_cast<size_t>(record.offset), record.stored_size);
+    if (hashBytes(stored) != record.hash)
         return Error{Issue::page_hash, name(), where, ""};
-    if (!decompress(*stored, out))
+    if (!decompress(stored, out))
         return Error{Issue::chunk_codec, name(), where, ""};
     return success();
 }
@@ -237,6 +238,8 @@ void PackView::enablePageChecks()
 
 Status PackView::decodePage(uint32_t page, std::span<std::byte> out) const
 {
+    if (page >= pages().size() && page - pages().size() < texturePieces().size())
+        return decodePiece(page - static_cast<uint32_t>(pages().size()), out);
     if (joint_counts_)
     {
         HEARTH_ASSIGN_OR_RETURN(const std::span<const std::byte> decoded,

@@ -382,15 +382,19 @@ public:
     Result<ChunkData> imageData(uint32_t image) const;
 
     /// Decode a piece of an image's texels into `out`, of the size of its record. Thread-safe; `out` is only
-    /// written. errors: meaning_reference, chunk_missing, meaning_range, meaning_value, page_hash,
-    /// chunk_codec.
-    /// piece  of texturePieces(), of this image
-    Status decodePiece(uint32_t image, uint32_t piece, std::span<std::byte> out) const;
+    /// written. errors: meaning_value, page_hash, chunk_codec.
+    /// piece  of texturePieces(), of tables that have been checked
+    Status decodePiece(uint32_t piece, std::span<std::byte> out) const;
+
+    /// Return the image that has a piece of texturePieces(). The tables have been checked. Time: logarithmic
+    /// in the number of images.
+    uint32_t findPieceImage(uint32_t piece) const;
 
     /// Decode a page into `out`, whose size is the page's. Thread-safe. If pages are checked when they are
     /// read, `out` is only written, from front to back, and not written at all after an error.
     /// errors: meaning_reference, meaning_range, meaning_value, page_hash, chunk_codec; and the errors of its
     /// meaning.
+    /// page  of pages(); numbers from there on are the pieces of texturePieces(), as decodePiece
     Status decodePage(uint32_t page, std::span<std::byte> out) const;
 
     /// Decode a page into a new buffer.

@@ -188,7 +188,7 @@ Status checkOwner(const hearth_scene& scene, const hearth_targets& targets)
 Status checkFrameBegun(const hearth_scene& scene)
 {
     if (scene.scene->stream != nullptr && !scene.to_be_recorded)
-        return usage("the scene has a geometry_budget: each frame begins with hearth_scene_begin_frame");
+        return usage("the scene has a memory_budget: each frame begins with hearth_scene_begin_frame");
     return success();
 }
 
@@ -410,7 +410,7 @@ hearth_result hearth_record_prefetch(hearth_scene* scene, hearth_targets* target
             HEARTH_TRY(checkCall(*scene, targets, commands, frame));
             HEARTH_TRY(checkFrameBegun(*scene));
             if (scene->scene->stream == nullptr)
-                return usage("the scene has no geometry_budget: all of it is there");
+                return usage("the scene has no memory_budget: all of it is there");
             HEARTH_ASSIGN_OR_RETURN(const shared::FrameView view, makeView(*scene, targets->targets, *frame));
             scene->to_be_recorded = false;
             scene->parts_recorded = 0;

@@ -278,7 +278,7 @@ typedef struct hearth_scene_options
     uint32_t max_visible_clusters;
     /* Bytes of geometry on the device; `read` streams pages on demand. 0: all geometry is resident, at most
      * 512 MiB. */
-    uint64_t geometry_budget;
+    uint64_t memory_budget;
     /* Needed with a budget. Before the scene is destroyed all reads must have ended or been cancelled. */
     hearth_read_page_callback read;
     void* read_user;

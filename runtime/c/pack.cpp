@@ -64,7 +64,7 @@ hearth_result hearth_pack_read_page(const hearth_pack* pack, uint32_t page, void
                 {
                     if (pack == nullptr || destination == nullptr)
                         return usage("pack or destination is NULL");
-                    if (page >= pack->pack->pages().size())
+                    if (page >= pack->pack.pageCount())
                         return usage("there is no page " + std::to_string(page));
                     if (size < pack->pack.pageSize(page))
                         return usage("page " + std::to_string(page) + " has " +

@@ -42,10 +42,10 @@ Status check(const hearth_scene_options* options)
         (options->flags & ~uint32_t{HEARTH_SCENE_DECODE_TEXTURES}) != 0)
         return usage("max_lights is above " + std::to_string(shared::kMaxLights) +
                      ", or flags have a bit that does not exist");
-    if (options->geometry_budget == 0)
+    if (options->memory_budget == 0)
         return success();
     if (options->read == nullptr)
-        return usage("geometry_budget needs a read callback");
+        return usage("memory_budget needs a read callback");
     if (options->max_loads < 1 || options->max_loads > kMaxLoads)
         return usage("max_loads is not from 1 to " + std::to_string(kMaxLoads));
     return success();
@@ -55,8 +55,8 @@ Result<gpu::SceneOptions> toOptions(const hearth_scene_options& options)
 {
     gpu::SceneOptions result{.max_visible_clusters = options.max_visible_clusters,
                              .frames_in_flight = options.frames_in_flight,
-                             .geometry_budget = options.geometry_budget};
-    if (options.geometry_budget > 0)
+                             .memory_budget = options.memory_budget};
+    if (options.memory_budget > 0)
         result.stream = {.read = [read = options.read, user = options.read_user](
                                      uint32_t page, std::span<std::byte> destination, pack::ReadDone done)
                          { read(user, page, destination.data(), destination.size(), toC(done)); },
@@ -70,7 +70,7 @@ Result<gpu::SceneOptions> toOptions(const hearth_scene_options& options)
 
 Status checkStreamed(const hearth_scene& scene)
 {
-    return scene.scene->stream == nullptr ? Status(usage("the scene has no geometry_budget")) : success();
+    return scene.scene->stream == nullptr ? Status(usage("the scene has no memory_budget")) : success();
 }
 
 Status checkSerials(const hearth_scene& scene, uint64_t serial, uint64_t completed_serial)

@@ -36,9 +36,15 @@ Status Pack::checkAll() const
     return formats::checkPack(view_);
 }
 
+uint32_t Pack::pageSize(uint32_t page) const
+{
+    const size_t pages = view_.pages().size();
+    return page < pages ? view_.pages()[page].size : view_.texturePieces()[page - pages].size;
+}
+
 Result<std::span<const std::byte>> Pack::readPage(uint32_t page, std::span<std::byte> out) const
 {
-    HEARTH_ASSERT(page < view_.pages().size() && out.size() >= pageSize(page));
+    HEARTH_ASSERT(page < pageCount() && out.size() >= pageSize(page));
     const std::span<std::byte> target = out.first(pageSize(page));
     HEARTH_TRY(view_.decodePage(page, target));
     return std::span<const std::byte>(target);

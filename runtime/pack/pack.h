@@ -37,12 +37,19 @@ public:
     const formats::PackView& view() const { return view_; }
     const formats::PackView* operator->() const { return &view_; }
 
-    /// Return the decoded size of a page in bytes, the minimum size of `out` of readPage. Precondition:
-    /// `page` is in the page table.
-    uint32_t pageSize(uint32_t page) const { return view_.pages()[page].size; }
+    /// Return the number of what can be streamed: the pages of geometry, and after them the pieces of
+    /// textures.
+    uint32_t pageCount() const
+    {
+        return static_cast<uint32_t>(view_.pages().size() + view_.texturePieces().size());
+    }
+
+    /// Return the decoded size of a page in bytes, the minimum size of `out` of readPage.
+    /// page  below pageCount()
+    uint32_t pageSize(uint32_t page) const;
 
     /// Decode a page into the front of `out`, which may be larger, check it, and return that part. Allocates
-    /// only some memory on the first call of a thread. `out` is unchanged on error.
+    /// only some memory on the first call of a thread. A page of geometry leaves `out` unchanged on error.
     /// errors: page_hash, chunk_codec, meaning_*.
     Result<std::span<const std::byte>> readPage(uint32_t page, std::span<std::byte> out) const;
 

@@ -344,7 +344,7 @@ Status parseBudget(std::string_view text, DrawOptions& options)
     const auto number = parseNumber<uint64_t>(digits);
     if (!number || *number == 0 || *number > (uint64_t{1} << 40 >> shift))
         return usageError("--budget: " + quoted(text) + " is not a number of bytes from 1 to 1024G");
-    options.geometry_budget = *number << shift;
+    options.memory_budget = *number << shift;
     return success();
 }
 

@@ -24,7 +24,7 @@ struct DrawOptions
     std::optional<uint32_t> scene_camera; ///< index of a camera of the pack
     FrameSettings settings;               ///< checked
     ShadowSettings shadows;               ///< on by default
-    uint64_t geometry_budget = 0;         ///< bytes; 0: all geometry is resident
+    uint64_t memory_budget = 0;         ///< bytes; 0: all geometry is resident
     std::string device;
     bool validate = false;
     bool verbose = false;

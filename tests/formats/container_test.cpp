@@ -353,7 +353,7 @@ const std::vector<MalformedContainer>& malformedContainers()
         {"chunkElementUneven", Issue::container_table,
          [] { return withEntry(smallPack().bytes(), 3, [](ChunkEntry& e) { e.element_size = 60; }); }},
         {"chunkCodec", Issue::container_table,
-         [] { return withEntry(smallPack().bytes(), 3, [](ChunkEntry& e) { e.codec = 2; }); }},
+         [] { return withEntry(smallPack().bytes(), 3, [](ChunkEntry& e) { e.codec = 3; }); }},
         {"chunkSizeOfStored", Issue::container_table,
          [] { return withEntry(smallPack().bytes(), 3, [](ChunkEntry& e) { e.size += e.element_size; }); }},
         {"chunkReserved", Issue::container_table,

@@ -109,7 +109,48 @@ const std::vector<MalformedPack>& malformedScenes()
         {"imageCoverage", Issue::meaning_value, "image 0",
          [](PackModel& p) { p.images[0].coverage_error = 1.5f; }},
         {"imageReserved", Issue::meaning_padding, "image 0",
-         [](PackModel& p) { p.images[0].reserved[1] = 1; }},
+         [](PackModel& p) { p.images[0].reserved_bytes[1] = 1; }},
+        {"imagePiecesOutside", Issue::meaning_range, "image 1",
+         [](PackModel& p) {
+             p.images[1].pieces = {0, 1};
+         }},
+        {"imagePiecesGap", Issue::meaning_range, "image 0",
+         [](PackModel& p)
+         {
+             p.sealImages();
+             p.images[0].pieces.first = 1;
+         }},
+        {"imagePiecesTooFew", Issue::meaning_range, "chunk TXPG 0",
+         [](PackModel& p)
+         {
+             p.sealImages();
+             p.images[1].pieces.count = 0;
+         }},
+        {"imagePiecesTooMany", Issue::meaning_range, "image 1",
+         [](PackModel& p)
+         {
+             p.sealImages();
+             p.texture_pieces.push_back(p.texture_pieces.back());
+             ++p.images[1].pieces.count;
+         }},
+        {"texturePieceGap", Issue::meaning_value, "texture piece 1",
+         [](PackModel& p)
+         {
+             p.sealImages();
+             p.texture_pieces[1].offset = 1;
+         }},
+        {"texturePieceSize", Issue::meaning_value, "texture piece 0",
+         [](PackModel& p)
+         {
+             p.sealImages();
+             --p.texture_pieces[0].size;
+         }},
+        {"texturePieceShort", Issue::chunk_size, "chunk IMGD 0",
+         [](PackModel& p)
+         {
+             p.sealImages();
+             --p.texture_pieces[0].stored_size;
+         }},
         {"imageFormatOfParts", Issue::meaning_value, "image 1",
          [](PackModel& p) { p.images[1].format = static_cast<uint32_t>(TexelFormat::rgba16_srgb); }},
         {"imageFlags", Issue::meaning_value, "image 1", [](PackModel& p) { p.images[1].flags = 8; }},

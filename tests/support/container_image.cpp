@@ -97,6 +97,21 @@ ChunkImage zstdChunk(uint32_t type, uint32_t index, uint32_t element_size, std::
     return chunk;
 }
 
+ChunkImage framesChunk(uint32_t type, uint32_t index, std::span<const std::byte> bytes,
+                       std::span<const uint32_t> sizes)
+{
+    ChunkImage chunk = plainChunk(type, index, 1, bytes);
+    chunk.entry.codec = static_cast<uint32_t>(Codec::zstd_frames);
+    chunk.stored.clear();
+    for (const uint32_t size : sizes)
+    {
+        const ChunkImage frame = zstdChunk(type, index, 1, bytes.first(size));
+        chunk.stored.insert(chunk.stored.end(), frame.stored.begin(), frame.stored.end());
+        bytes = bytes.subspan(size);
+    }
+    return chunk;
+}
+
 ChunkImage streamedChunk(uint32_t type, uint32_t index, uint32_t element_size,
                          std::span<const std::byte> bytes)
 {

@@ -48,6 +48,11 @@ ChunkImage plainChunk(uint32_t type, uint32_t index, uint32_t element_size, std:
 /// Make a chunk that is always compressed by zstd.
 ChunkImage zstdChunk(uint32_t type, uint32_t index, uint32_t element_size, std::span<const std::byte> bytes);
 
+/// Make a chunk of several zstd frames.
+/// sizes  of their contents
+ChunkImage framesChunk(uint32_t type, uint32_t index, std::span<const std::byte> bytes,
+                       std::span<const uint32_t> sizes);
+
 /// Make a compressed chunk whose frame does not store the size of its content, as streams do.
 ChunkImage streamedChunk(uint32_t type, uint32_t index, uint32_t element_size,
                          std::span<const std::byte> bytes);

@@ -139,11 +139,10 @@ std::unique_ptr<gpu::Scene> GpuTest::upload(const formats::PackView& pack, const
 
 gpu::FrameTargets GpuTest::makeTargets(uint32_t width, uint32_t height)
 {
-    auto targets = renderer().createTargets({width, height},
-                                            {.keeps_visibility = true,
-                                             .light_paths = renderer().supports(gpu::LightMethod::deferred)
-                                                                ? gpu::kAllLightPaths
-                                                                : 0u});
+    auto targets = renderer().createTargets(
+        {width, height},
+        {.keeps_visibility = true,
+         .light_paths = renderer().supports(gpu::LightMethod::deferred) ? gpu::kAllLightPaths : 0u});
     HEARTH_ASSERT(targets.ok());
     return std::move(*targets);
 }

@@ -5,6 +5,7 @@
 #include "formats/codecs/visibility_code.h"
 #include "formats/container/container_reader.h"
 #include "formats/gpu_shared/reflector.h"
+#include "formats/pack/texture_pieces.h"
 
 #include <bit>
 #include <cmath>
@@ -537,6 +538,44 @@ void PackModel::sealPages()
     }
 }
 
+void PackModel::sealImages()
+{
+    texture_pieces.clear();
+    for (uint32_t i = 0; i < images.size(); ++i)
+    {
+        const std::vector<TexturePiece> pieces = listTexturePieces(images[i]);
+        images[i].pieces = {static_cast<uint32_t>(texture_pieces.size()),
+                            static_cast<uint32_t>(pieces.size())};
+        uint64_t offset = 0;
+        for (const TexturePiece& piece : pieces)
+        {
+            const auto texels =
+                std::span(image_data[i]).subspan(static_cast<size_t>(piece.offset), piece.size);
+            const ChunkImage frame = zstdChunk(0, 0, 1, texels);
+            texture_pieces.push_back({.offset = offset,
+                                      .stored_size = static_cast<uint32_t>(frame.stored.size()),
+                                      .size = piece.size,
+                                      .hash = hashBytes(frame.stored)});
+            offset += frame.stored.size();
+        }
+    }
+}
+
+/// Return the chunk of an image's texels, in its pieces if it has some.
+ChunkImage PackModel::imageChunk(uint32_t image, bool compressed) const
+{
+    const std::vector<std::byte>& texels = image_data[image];
+    if (image < images.size() && images[image].pieces.count > 0)
+    {
+        std::vector<uint32_t> sizes;
+        for (const TexturePiece& piece : listTexturePieces(images[image]))
+            sizes.push_back(piece.size);
+        return framesChunk(kChunkImageData, image, texels, sizes);
+    }
+    return compressed ? zstdChunk(kChunkImageData, image, 1, texels)
+                      : plainChunk(kChunkImageData, image, 1, texels);
+}
+
 std::vector<ChunkImage> PackModel::chunks(bool compressed) const
 {
     std::vector<ChunkImage> list;
@@ -558,6 +597,8 @@ std::vector<ChunkImage> PackModel::chunks(bool compressed) const
     table(kChunkMaterials, materials);
     table(kChunkMaterialLayers, material_layers);
     table(kChunkImages, images);
+    if (!texture_pieces.empty())
+        table(kChunkTexturePieces, texture_pieces);
     table(kChunkSkins, skins);
     table(kChunkJoints, joints);
     table(kChunkAnimations, animations);
@@ -591,7 +632,7 @@ std::vector<ChunkImage> PackModel::chunks(bool compressed) const
     table(kChunkReflectors, bricks.reflectors);
     list.push_back(plainChunk(kChunkPages, 0, 1, page_bytes));
     for (uint32_t i = 0; i < image_data.size(); ++i)
-        bytes(kChunkImageData, i, 1, image_data[i]);
+        list.push_back(imageChunk(i, compressed));
     return list;
 }
 

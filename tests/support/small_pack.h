@@ -35,6 +35,7 @@ struct PackModel
     std::vector<formats::MaterialLayersRecord> material_layers;
     std::vector<formats::ImageRecord> images;
     std::vector<std::vector<std::byte>> image_data;
+    std::vector<formats::TexturePieceRecord> texture_pieces;
     std::vector<formats::SkinRecord> skins;
     std::vector<formats::JointRecord> joints;
     std::vector<formats::AnimationRecord> animations;
@@ -66,6 +67,9 @@ struct PackModel
     /// second page is stored uncompressed, the others by zstd.
     void sealPages();
 
+    /// Cut the texels of all images into pieces. Without it images have none.
+    void sealImages();
+
     /// Return the chunks in the order in which hearth-link writes them; `compressed` selects zstd for the
     /// tables.
     std::vector<ChunkImage> chunks(bool compressed = false) const;
@@ -74,6 +78,9 @@ struct PackModel
     {
         return assemble(formats::ContainerKind::pack, chunks(compressed));
     }
+
+private:
+    ChunkImage imageChunk(uint32_t image, bool compressed) const;
 };
 
 /// Mesh 0: a folded strip of four quads. Level 0 has a cluster for each quad, in two groups of two. Each

@@ -200,6 +200,7 @@ void TestScene::setVisibility(const Visibility& visibility)
         }
     }
     model_.sealPages();
+    model_.sealImages();
 }
 
 PackView TestScene::build()

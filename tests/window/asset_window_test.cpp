@@ -79,7 +79,7 @@ TEST_F(AssetWindow, showsTheChosenOneAloneAndThenAllAgain)
         EXPECT_EQ(image(), alone[i]) << i;
         EXPECT_NE(image(), all);
     }
-    viewer_->settings().geometry_budget = uint64_t{4} << 20; // the scene is reloaded
+    viewer_->settings().memory_budget = uint64_t{4} << 20; // the scene is reloaded
     EXPECT_EQ(image(), alone[0]);
     viewer_->settings().asset.reset();
     EXPECT_EQ(image(), all);

@@ -17,7 +17,7 @@ TEST(ViewOptions, areThoseOfADrawingAndItsOwn)
     EXPECT_EQ(options->pack, "a.hearth");
     EXPECT_EQ(options->width, 64u);
     EXPECT_EQ(options->settings.view, shared::kViewLod);
-    EXPECT_EQ(options->geometry_budget, 2u << 20);
+    EXPECT_EQ(options->memory_budget, 2u << 20);
     EXPECT_EQ(options->frames, 7u);
     EXPECT_EQ(options->screenshot, "a.png");
     EXPECT_TRUE(options->validate);

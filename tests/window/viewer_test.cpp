@@ -236,7 +236,7 @@ TEST_F(WindowTest, restsWhileItIsMinimized)
 TEST_F(WindowTest, takesAnotherBudgetAndKeepsTheSceneWhereThereIsNone)
 {
     EXPECT_EQ(viewer_->scene().scene().stream, nullptr);
-    settings().geometry_budget = 8u << 20;
+    settings().memory_budget = 8u << 20;
     play();
     const gpu::SceneStream* stream = viewer_->scene().scene().stream.get();
     ASSERT_NE(stream, nullptr);
@@ -247,11 +247,11 @@ TEST_F(WindowTest, takesAnotherBudgetAndKeepsTheSceneWhereThereIsNone)
     EXPECT_TRUE(viewer_->settledSince(first));
     EXPECT_GT(stream->statistics().pages_resident, 1u);
 
-    settings().geometry_budget = 16; // less than the pinned data
+    settings().memory_budget = 16; // less than the pinned data
     play();
-    EXPECT_EQ(settings().geometry_budget, 8u << 20);
+    EXPECT_EQ(settings().memory_budget, 8u << 20);
     EXPECT_EQ(viewer_->scene().scene().stream.get(), stream);
-    settings().geometry_budget = 0;
+    settings().memory_budget = 0;
     play();
     EXPECT_EQ(viewer_->scene().scene().stream, nullptr);
 }
@@ -288,7 +288,7 @@ TEST_F(WindowTest, playsTheClipsOfACharacter)
     EXPECT_EQ(play(5), 5u);
     ASSERT_TRUE(viewer_->playback().fadedClip());
     EXPECT_EQ(viewer_->playback().fadedClip()->animation, 0u);
-    settings().geometry_budget = 8u << 20; // the scene is reloaded, posed by the clip at once
+    settings().memory_budget = 8u << 20; // the scene is reloaded, posed by the clip at once
     EXPECT_EQ(play(20), 20u);
     EXPECT_FALSE(viewer_->playback().fadedClip());
     settings().playback.clip.reset();

@@ -124,9 +124,11 @@ void BinPass::record(const Device& device, VkCommandBuffer commands, const DrawL
         device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
                                     pipelines[static_cast<size_t>(facing)].get());
         if (bin.alpha_tested)
+        {
+            const VkDescriptorSet set = materialSet(scene, bin.material_row);
             device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout,
-                                              shared::kSetMaterial, 1, &scene.materials[bin.material_row].set,
-                                              0, nullptr);
+                                              shared::kSetMaterial, 1, &set, 0, nullptr);
+        }
         push.facing = bin.facing == Facing::doubleSided ? shared::kCasterDoubleSided
                       : bin.facing == Facing::mirrored  ? shared::kCasterClockwise
                                                         : shared::kCasterCounterclockwise;

@@ -2,6 +2,7 @@
 #include "runtime/gpu/passes/frame_update.h"
 
 #include "runtime/gpu/scene/scene_shadows.h"
+#include "runtime/gpu/scene/scene_textures.h"
 
 #include <cstring>
 
@@ -38,6 +39,8 @@ void recordStream(const Device& device, VkCommandBuffer commands, const Scene& s
     const SceneStream::Copies ranges = scene.stream->takeChanges(scene.buffers, scene.tables->frame, copies);
     for (size_t i = 0; i < ranges.size(); ++i)
         copy_words.record(device, commands, frame.stream_copy_sets[i], ranges[i]);
+    if (scene.textures != nullptr)
+        scene.textures->record(commands, scene);
 }
 
 } // namespace

@@ -36,7 +36,7 @@ void ShadingBinder::bindMaterial(size_t row) const
     if (layouts_.joinsSets())
         bind(layout(), kJoinedSet, scene_.joined_sets->material(scene_.tables->frame, row));
     else
-        bind(layout(), shared::kSetMaterial, scene_.materials[row].set);
+        bind(layout(), shared::kSetMaterial, materialSet(scene_, row));
 }
 
 void ShadingBinder::bindClusters() const

@@ -41,12 +41,13 @@ Result<std::unique_ptr<JoinedSets>> JoinedSets::create(const Device& device, con
     for (const SceneFrame& frame : scene.frames)
     {
         Frame sets;
+        const size_t number = joined->frames_.size();
         for (const SceneMaterial& material : scene.materials)
         {
             HEARTH_ASSIGN_OR_RETURN(const VkDescriptorSet set,
                                     allocateSet(device, joined->pool_.get(), layouts.joined_shading.get()));
             copier.copy(frame.main.draw_set, set, bindings.scene);
-            copier.copy(material.set, set, bindings.material);
+            copier.copy(material.sets[std::min(number, material.sets.size() - 1)], set, bindings.material);
             sets.materials.push_back(set);
         }
         HEARTH_ASSIGN_OR_RETURN(sets.clusters,
@@ -56,6 +57,13 @@ Result<std::unique_ptr<JoinedSets>> JoinedSets::create(const Device& device, con
     }
     copier.write(device);
     return joined;
+}
+
+void JoinedSets::setMaterial(const Device& device, uint32_t frame, size_t row, VkDescriptorSet material)
+{
+    DescriptorCopier copier;
+    copier.copy(material, frames_[frame].materials[row], bindings_.material);
+    copier.write(device);
 }
 
 void JoinedSets::setAttachments(const Device& device, uint32_t frame, const AttachmentSet& attachments)

@@ -38,6 +38,9 @@ public:
     /// recorded, and the one before it in its place has completed.
     void setAttachments(const Device& device, uint32_t frame, const AttachmentSet& attachments);
 
+    /// Join a material's set again after a change. The frame before it in its place has completed.
+    void setMaterial(const Device& device, uint32_t frame, size_t row, VkDescriptorSet material);
+
     VkDescriptorSet material(uint32_t frame, size_t row) const { return frames_[frame].materials[row]; }
     VkDescriptorSet clusters(uint32_t frame) const { return frames_[frame].clusters; }
 

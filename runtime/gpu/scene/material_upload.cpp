@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/scene/scene.h"
 #include "runtime/gpu/scene/scene_shading.h"
+#include "runtime/gpu/scene/scene_textures.h"
 #include "runtime/gpu/scene/texture_upload.h"
 
 #include <algorithm>
@@ -74,38 +75,65 @@ struct BlockOffsets
     VkDeviceSize layers;
 };
 
-Result<VkDescriptorSet> createMaterialSet(const Device& device, const DrawLayouts& layouts,
-                                          const LayeredMaterial& material, BlockOffsets offsets,
-                                          SamplerCache& samplers, Scene& scene)
+/// Name the images and samplers of a material's textures.
+Result<std::vector<SceneTexture>> findTextures(const LayeredMaterial& material, SamplerCache& samplers,
+                                               const Scene& scene)
 {
-    HEARTH_ASSIGN_OR_RETURN(const VkDescriptorSet set,
-                            allocateSet(device, scene.pool.get(), layouts.material.get()));
-    DescriptorWriter writer(set);
-    writer
-        .uniform(shared::kMaterialBlock, scene.buffers.materials, offsets.material, sizeof(shared::Material))
-        .uniform(shared::kMaterialLayers, scene.buffers.materials, offsets.layers,
-                 sizeof(shared::MaterialLayers));
-    const MaterialTextures textures = materialTextures(material);
-    for (uint32_t slot = 0; slot < shared::kTextureCount; ++slot)
+    std::vector<SceneTexture> textures;
+    for (const formats::TextureRef& texture : materialTextures(material))
     {
-        const bool used = textures[slot].image != kInvalidIndex;
+        const bool used = texture.image != kInvalidIndex;
         HEARTH_ASSIGN_OR_RETURN(const VkSampler sampler,
-                                samplers.get(used ? textures[slot] : formats::TextureRef{}));
-        const Image& image = used ? scene.images[textures[slot].image] : scene.images.back();
-        writer.texture(shared::kMaterialTextures + slot, image.view.get(), sampler);
+                                samplers.get(used ? texture : formats::TextureRef{}));
+        const auto white = static_cast<uint32_t>(scene.images.size()) - 1;
+        textures.push_back({used ? texture.image : white, sampler});
     }
-    writer.write(device);
-    return set;
+    return textures;
+}
+
+/// Create the sets of a material whose textures are known.
+Status createMaterialSets(const Device& device, const DrawLayouts& layouts, size_t row, BlockOffsets offsets,
+                          Scene& scene)
+{
+    const size_t count = scene.textures == nullptr ? 1 : scene.frames.size();
+    for (size_t i = 0; i < count; ++i)
+    {
+        HEARTH_ASSIGN_OR_RETURN(const VkDescriptorSet set,
+                                allocateSet(device, scene.pool.get(), layouts.material.get()));
+        DescriptorWriter(set)
+            .uniform(shared::kMaterialBlock, scene.buffers.materials, offsets.material,
+                     sizeof(shared::Material))
+            .uniform(shared::kMaterialLayers, scene.buffers.materials, offsets.layers,
+                     sizeof(shared::MaterialLayers))
+            .write(device);
+        writeMaterialTextures(device, scene, row, set);
+        scene.materials[row].sets.push_back(set);
+    }
+    return success();
 }
 
 } // namespace
+
+void writeMaterialTextures(const Device& device, const Scene& scene, size_t row, VkDescriptorSet set)
+{
+    DescriptorWriter writer(set);
+    for (uint32_t slot = 0; slot < shared::kTextureCount; ++slot)
+    {
+        const SceneTexture& texture = scene.materials[row].textures[slot];
+        const bool is_streamed = texture.image + 1 < scene.images.size() && scene.textures != nullptr &&
+                                 scene.textures->isStreamed(texture.image);
+        const Image& image = is_streamed ? scene.textures->image(texture.image) : scene.images[texture.image];
+        writer.texture(shared::kMaterialTextures + slot, image.view.get(), texture.sampler);
+    }
+    writer.write(device);
+}
 
 Status uploadMaterials(const Device& device, const DrawLayouts& layouts, const formats::PackView& pack,
                        Uploader& uploader, Scene& scene)
 {
     const std::vector<LayeredMaterial> materials = readMaterials(pack);
 
-    HEARTH_TRY(uploadTextures(device, pack, materials, uploader, scene));
+    HEARTH_TRY(uploadTextures(device, pack, uploader, scene));
 
     const VkDeviceSize alignment = std::max<VkDeviceSize>(device.limits.minUniformBufferOffsetAlignment, 1);
     const auto aligned = [&](VkDeviceSize size) { return (size + alignment - 1) / alignment * alignment; };
@@ -143,9 +171,9 @@ Status uploadMaterials(const Device& device, const DrawLayouts& layouts, const f
             offsets.layers = std::exchange(end, end + layer_stride);
             writeLayers(offsets.layers, materials[row].layers);
         }
-        HEARTH_ASSIGN_OR_RETURN(entry.set,
-                                createMaterialSet(device, layouts, materials[row], offsets, samplers, scene));
-        scene.materials.push_back(entry);
+        HEARTH_ASSIGN_OR_RETURN(entry.textures, findTextures(materials[row], samplers, scene));
+        scene.materials.push_back(std::move(entry));
+        HEARTH_TRY(createMaterialSets(device, layouts, row, offsets, scene));
     }
     return success();
 }

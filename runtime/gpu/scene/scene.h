@@ -37,9 +37,9 @@ struct SceneOptions
     /// frames before it have completed.
     uint32_t frames_in_flight = 2;
 
-    /// Bytes of geometry on the device; `stream` loads pages on demand (runtime/gpu/README.md, "Streaming").
-    /// 0: all geometry is resident, at most 512 MiB.
-    uint64_t geometry_budget = 0;
+    /// Bytes of geometry and textures on the device; `stream` loads pages and mips on demand
+    /// (runtime/gpu/README.md, "Streaming"). 0: all is resident, geometry of at most 512 MiB.
+    uint64_t memory_budget = 0;
     StreamOptions stream{};
 
     /// Slots of lights, up to shared::kMaxLights: the pack's, and more that frames fill. At least as many as
@@ -57,6 +57,7 @@ struct SceneOptions
 };
 
 class SceneShadows;
+class SceneTextures;
 
 /// Buffers of a scene that all frames share; the element types are in formats/gpu_shared.
 struct SceneBuffers
@@ -105,10 +106,19 @@ struct ShadingPipelines
     VkPipeline debug_view_pipeline = VK_NULL_HANDLE;
 };
 
+/// Texture of a material.
+struct SceneTexture
+{
+    uint32_t image; ///< of the pack, or behind them the white texel
+    VkSampler sampler;
+};
+
 /// Row of the material table.
 struct SceneMaterial
 {
-    VkDescriptorSet set = VK_NULL_HANDLE;
+    /// One, or where textures are streamed one for each frame in flight: see materialSet().
+    std::vector<VkDescriptorSet> sets;
+    std::vector<SceneTexture> textures; ///< by slot: shared::kMaterialTextures
     ShadingVariant variant;
     /// [LightMethod][ShadedOutput]; empty unless the method is prepared.
     std::array<std::array<ShadingPipelines, kShadedOutputCount>, kLightMethodCount> pipelines;
@@ -126,7 +136,8 @@ struct Scene
     std::unique_ptr<SceneTables> tables;
     std::vector<SceneFrame> frames; ///< one for each frame in flight
     const SceneFrame& frame() const { return frames[tables->frame]; }
-    /// Per image of the pack, empty if no material uses it; then one white texel.
+    std::unique_ptr<SceneTextures> textures; ///< scenes with streamed textures only
+    /// Per image of the pack, empty if no material uses it or it is streamed; then one white texel.
     std::vector<Image> images;
     bool decodes_textures = false; ///< as SceneOptions::decode_textures
     uint32_t decoded_textures = 0; ///< images that were decoded, since the device lacks their formats
@@ -162,6 +173,13 @@ inline bool hasSkyVisibility(const Scene& scene)
 {
     return std::any_of(scene.materials.begin(), scene.materials.end(),
                        [](const SceneMaterial& m) { return m.variant.sky_visibility != 0; });
+}
+
+/// Return the set of a material for the frame that is recorded.
+inline VkDescriptorSet materialSet(const Scene& scene, size_t row)
+{
+    const std::vector<VkDescriptorSet>& sets = scene.materials[row].sets;
+    return sets.size() == 1 ? sets.front() : sets[scene.tables->frame];
 }
 
 /// Call function(view) for each view of each frame.
@@ -200,6 +218,9 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
 /// scene.pool and scene.used_slices.
 Status uploadMaterials(const Device& device, const DrawLayouts& layouts, const formats::PackView& pack,
                        Uploader& uploader, Scene& scene);
+
+/// Write the textures of a material into a set of it.
+void writeMaterialTextures(const Device& device, const Scene& scene, size_t row, VkDescriptorSet set);
 
 /// Upload the tables that shading samples: specular reflectance, the sky, and specular occlusion of packs
 /// that have it. Needs the draw sets.

@@ -3,6 +3,7 @@
 
 #include "formats/gpu_shared/decisions.h"
 #include "runtime/gpu/scene/scene.h"
+#include "runtime/gpu/scene/scene_textures.h"
 
 #include <algorithm>
 #include <bit>
@@ -67,6 +68,8 @@ void SceneStream::beginFrame(uint64_t serial, uint64_t completed_serial)
     for (const uint32_t page : changes_.failed)
         warn(device_, pack_.name(), "page " + std::to_string(page),
              "cannot be read: what it refines stays coarse");
+    if (textures_ != nullptr)
+        textures_->beginFrame(serial, completed_serial);
     readRequests(completed_serial);
 }
 
@@ -80,8 +83,35 @@ void SceneStream::readRequests(uint64_t completed_serial)
             last = std::max(last, feedback.serial);
             feedback.serial = 0;
         }
-    if (last != 0)
-        pages_.schedule(last);
+    if (last == 0)
+        return;
+    pages_.schedule(last);
+    if (textures_ != nullptr)
+    {
+        textures_->request(material_requests_);
+        textures_->schedule(last);
+    }
+    std::ranges::fill(material_requests_, 0u);
+}
+
+uint64_t SceneStream::settledSerial() const
+{
+    return textures_ == nullptr ? pages_.settledSerial()
+                                : std::min(pages_.settledSerial(), textures_->stream().settledSerial());
+}
+
+void SceneStream::retryFailed()
+{
+    pages_.retryFailed();
+    if (textures_ != nullptr)
+        textures_->retryFailed();
+}
+
+VkDeviceSize SceneStream::allocatedBytes() const
+{
+    const VkDeviceSize own = memory_.arena.allocatedBytes();
+    return textures_ == nullptr ? own
+                                : own + textures_->stagingBytes() + textures_->statistics().bytes_on_device;
 }
 
 void SceneStream::takeRequests(const RequestReadback& feedback)
@@ -90,6 +120,9 @@ void SceneStream::takeRequests(const RequestReadback& feedback)
     for (uint32_t page = 0; page < pack_.pages().size(); ++page)
         if (requests[page] != 0)
             pages_.request(page, priorityFromRequest(requests[page]));
+    const uint32_t* const materials = requests + pack_.pages().size();
+    for (size_t row = 0; row < material_requests_.size(); ++row)
+        material_requests_[row] = std::max(material_requests_[row], materials[row]);
 }
 
 shared::FrameView SceneStream::scaled(const shared::FrameView& view) const
@@ -104,6 +137,7 @@ void SceneStream::setFrames(std::span<const SceneFrame> frames)
 {
     for (const SceneFrame& frame : frames)
         feedback_.push_back({&frame.page_requests, 0});
+    material_requests_.resize(pack_.materials().size() + 1);
 }
 
 uint32_t SceneStream::maxCopyRegions() const

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "runtime/gpu/scene/pool_layout.h"
-#include "runtime/gpu/vulkan/word_copies.h"
 #include "runtime/gpu/vulkan/memory.h"
+#include "runtime/gpu/vulkan/word_copies.h"
 #include "runtime/pack/page_stream.h"
 
 #include <array>
@@ -15,6 +15,7 @@
 namespace hearth::gpu
 {
 
+class SceneTextures;
 struct SceneBuffers;
 struct SceneFrame;
 
@@ -44,6 +45,9 @@ public:
     /// Set the frames of the scene, whose requests are read once they have completed.
     void setFrames(std::span<const SceneFrame> frames);
 
+    /// Stream textures as well: they outlive the stream.
+    void setTextures(SceneTextures& textures) { textures_ = &textures; }
+
     /// Begin frame `serial`: takes the pages that were read, handles the requests of completed frames, starts
     /// reads. The frame must then be recorded and submitted before the next begins.
     /// serial            greater than the serial of the last frame, >= 1
@@ -60,15 +64,18 @@ public:
     /// stay coarse.
     std::span<const uint32_t> failed() const { return changes_.failed; }
     /// Allow failed pages to be read again.
-    void retryFailed() { pages_.retryFailed(); }
+    void retryFailed();
 
     /// Serial of the last frame that drew everything it needed and could get. To prefetch a view, record
     /// frames of it (Renderer::recordPrefetch) until this reaches the serial of the first of them.
-    uint64_t settledSerial() const { return pages_.settledSerial(); }
+    uint64_t settledSerial() const;
 
     const pack::StreamStatistics& statistics() const { return pages_.statistics(); }
     const pack::PageStream& pages() const { return pages_; }
-    VkDeviceSize allocatedBytes() const { return memory_.arena.allocatedBytes(); }
+    /// Return the bytes of staging memory, and of streamed textures.
+    VkDeviceSize allocatedBytes() const;
+
+    SceneTextures* textures() const { return textures_; } ///< null: none are streamed
 
     /// Decoded pages on their way into the pool.
     const Buffer& staging() const { return memory_.staging; }
@@ -123,6 +130,8 @@ private:
     Memory memory_;
     std::vector<RequestReadback> feedback_;
     pack::PageStream pages_;
+    SceneTextures* textures_ = nullptr;
+    std::vector<uint32_t> material_requests_; ///< of the round: for each row, the greatest
     pack::StreamChanges changes_{};
     uint64_t serial_ = 0;
     bool recorded_ = true; ///< frame serial_ has been recorded

@@ -4,6 +4,7 @@
 #include "runtime/gpu/scene/scene_shading.h"
 #include "runtime/gpu/scene/scene_shadows.h"
 #include "runtime/gpu/scene/scene_tables.h"
+#include "runtime/gpu/scene/scene_textures.h"
 #include "runtime/pack/cut.h"
 #include "runtime/pack/scene_boxes.h"
 
@@ -281,12 +282,13 @@ Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene
     // views, lights, tiles, page requests of both kinds, skinning and bricks, and six for copies; bricks one
     // more
     const auto frames = static_cast<uint32_t>(scene.frames.size());
+    const uint32_t material_sets = material_rows * (scene.textures == nullptr ? 1 : frames);
     const uint32_t views = frames * (1 + static_cast<uint32_t>(scene.frames.front().casters.size()));
-    const DescriptorPoolSizes sizes{.uniforms = 6 * views + 9 * frames + 2 * material_rows,
+    const DescriptorPoolSizes sizes{.uniforms = 6 * views + 9 * frames + 2 * material_sets,
                                     .storages = 56 * views + 71 * frames + 2,
-                                    .textures = material_rows * shared::kTextureCount + 4 * views};
+                                    .textures = material_sets * shared::kTextureCount + 4 * views};
     HEARTH_ASSIGN_OR_RETURN(scene.pool,
-                            createDescriptorPool(device, 9 * views + 14 * frames + 1 + material_rows, sizes));
+                            createDescriptorPool(device, 9 * views + 14 * frames + 1 + material_sets, sizes));
     for (uint32_t number = 0; number < frames; ++number)
     {
         SceneFrame& frame = scene.frames[number];
@@ -320,6 +322,36 @@ std::unique_ptr<SceneDeformation> makeDeformation(const Device& device, const De
     deformation->rigid_items = layout.rigid_items;
     deformation->rigid_group_items = rigid_group_items;
     return deformation;
+}
+
+struct MemoryShares
+{
+    uint64_t geometry, textures;
+};
+
+/// Divide the budget: both get what is always resident, and of the rest shares as large as what they can use.
+MemoryShares splitBudget(uint64_t budget, const pack::PageGraph& pages, const TextureSizes& sizes)
+{
+    const pack::TextureGraph textures(sizes);
+    // pages take slots as large as the largest
+    uint32_t slot_bytes = 0;
+    for (uint32_t page = 0; page < pages.pageCount(); ++page)
+        slot_bytes = std::max(slot_bytes, pages.sizeBytes(page));
+    uint64_t texture_bytes = 0;
+    for (uint32_t node = 0; node < textures.nodes().pageCount(); ++node)
+        if (!textures.nodes().isPinned(node))
+            texture_bytes += textures.nodes().sizeBytes(node);
+    const uint64_t pinned = pages.pinnedBytes() + textures.nodes().pinnedBytes();
+    const uint64_t rest = budget - std::min(budget, pinned);
+    const double geometry_use =
+        static_cast<double>(pages.pageCount() - pages.pinned().size()) * static_cast<double>(slot_bytes);
+    const auto texture_use = static_cast<double>(texture_bytes);
+    if (textures.nodes().pageCount() == 0)
+        return {budget, 0};
+    const auto texture_share = static_cast<uint64_t>(static_cast<double>(rest) * texture_use /
+                                                     std::max(geometry_use + texture_use, 1.0));
+    const uint64_t share = textures.nodes().pinnedBytes() + texture_share;
+    return {budget - std::min(budget, share), share};
 }
 
 /// Mark the materials that are used by meshes with sky visibility.
@@ -375,19 +407,27 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
     scene->tables = std::make_unique<SceneTables>();
     scene->frames.resize(options.frames_in_flight);
     PoolLayout pool;
-    if (options.geometry_budget > 0)
+    if (options.memory_budget > 0)
     {
         const pack::PageGraph graph = pack::PageGraph::of(pack);
-        HEARTH_ASSIGN_OR_RETURN(pool, placePinnedPages(pack, graph, options.geometry_budget));
+        HEARTH_ASSIGN_OR_RETURN(const TextureSizes sizes, measureTextures(device, pack));
+        const MemoryShares shares = splitBudget(options.memory_budget, graph, sizes);
+        HEARTH_ASSIGN_OR_RETURN(pool, placePinnedPages(pack, graph, shares.geometry));
         HEARTH_ASSIGN_OR_RETURN(scene->stream,
                                 SceneStream::create(device, pack, graph, pool, options.stream));
+        if (shares.textures > 0)
+        {
+            HEARTH_ASSIGN_OR_RETURN(
+                scene->textures, SceneTextures::create(device, pack, sizes, shares.textures, options.stream));
+            scene->stream->setTextures(*scene->textures);
+        }
     }
     else
     {
         HEARTH_ASSIGN_OR_RETURN(pool, placeAllPages(pack));
     }
     HEARTH_ASSIGN_OR_RETURN(SceneLayout layout, makeSceneLayout(pack, std::move(pool)));
-    const GroupItems group_items = options.geometry_budget > 0 ? makeGroupItems(pack) : GroupItems{};
+    const GroupItems group_items = options.memory_budget > 0 ? makeGroupItems(pack) : GroupItems{};
     scene->staging = std::make_unique<Uploader>(device, commands);
     scene->instances.assign(pack.instances().begin(), pack.instances().end());
     scene->instance_count = static_cast<uint32_t>(pack.instances().size());

@@ -2,6 +2,7 @@
 #include "runtime/gpu/scene/texture_upload.h"
 
 #include "formats/texels/decode_image.h"
+#include "runtime/gpu/scene/scene_textures.h"
 
 #include <algorithm>
 #include <cstring>
@@ -69,17 +70,6 @@ std::string familyNames(const Device& device)
     return names.empty() ? "no compressed format" : names;
 }
 
-VkComponentMapping viewComponents(const formats::ImageRecord& record)
-{
-    const auto source = [&](uint32_t c) { return static_cast<VkComponentSwizzle>(record.swizzle[c]); };
-    return {source(0), source(1), source(2), source(3)};
-}
-
-TexelBlock blockSize(const TexelFormatTraits& traits)
-{
-    return {traits.block_bytes, traits.block_width, traits.block_height};
-}
-
 Status uploadImage(const Device& device, const formats::PackView& pack, uint32_t index, Uploader& uploader,
                    Scene& scene)
 {
@@ -130,18 +120,36 @@ Status uploadWhite(Uploader& uploader, Scene& scene)
 
 } // namespace
 
-Status uploadTextures(const Device& device, const formats::PackView& pack,
-                      std::span<const LayeredMaterial> materials, Uploader& uploader, Scene& scene)
+std::vector<bool> findUsedImages(const formats::PackView& pack)
 {
-    scene.images.resize(pack.images().size());
     std::vector<bool> used(pack.images().size(), false);
-    for (const LayeredMaterial& material : materials)
+    for (const LayeredMaterial& material : readMaterials(pack))
         for (const formats::TextureRef& texture : materialTextures(material))
             if (texture.image != kInvalidIndex)
                 used[texture.image] = true;
+    return used;
+}
+
+VkComponentMapping viewComponents(const formats::ImageRecord& record)
+{
+    const auto source = [&](uint32_t c) { return static_cast<VkComponentSwizzle>(record.swizzle[c]); };
+    return {source(0), source(1), source(2), source(3)};
+}
+
+TexelBlock blockSize(const formats::TexelFormatTraits& traits)
+{
+    return {traits.block_bytes, traits.block_width, traits.block_height};
+}
+
+Status uploadTextures(const Device& device, const formats::PackView& pack, Uploader& uploader, Scene& scene)
+{
+    scene.images.resize(pack.images().size());
+    const std::vector<bool> used = findUsedImages(pack);
     for (uint32_t image = 0; image < used.size(); ++image)
-        if (used[image])
+        if (used[image] && (scene.textures == nullptr || !scene.textures->isStreamed(image)))
             HEARTH_TRY(uploadImage(device, pack, image, uploader, scene));
+    if (scene.textures != nullptr)
+        HEARTH_TRY(scene.textures->uploadTails(uploader));
     return uploadWhite(uploader, scene);
 }
 

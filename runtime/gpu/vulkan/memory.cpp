@@ -59,7 +59,36 @@ VkDeviceSize alignUp(VkDeviceSize value, VkDeviceSize alignment)
     return (value + alignment - 1) / alignment * alignment;
 }
 
+/// Create an image without memory.
+Result<UniqueImage> createUnbound(const Device& device, const ImageDescription& description)
+{
+    VkImageCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
+    info.imageType = VK_IMAGE_TYPE_2D;
+    info.format = description.format;
+    info.extent = {description.extent.width, description.extent.height, 1};
+    info.mipLevels = description.mip_count;
+    info.arrayLayers = std::max(description.array_layers, 1u);
+    info.samples = VK_SAMPLE_COUNT_1_BIT;
+    info.tiling = VK_IMAGE_TILING_OPTIMAL;
+    info.usage = description.usage;
+    info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
+    info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+    VkImage handle;
+    HEARTH_TRY_VK(device.vk.vkCreateImage(device.handle, &info, device.allocator, &handle),
+                  "create an image");
+    return UniqueImage(device, handle);
+}
+
 } // namespace
+
+Result<VkDeviceSize> measureImage(const Device& device, const ImageDescription& description)
+{
+    HEARTH_ASSIGN_OR_RETURN(const UniqueImage image, createUnbound(device, description));
+    VkMemoryRequirements needs;
+    device.vk.vkGetImageMemoryRequirements(device.handle, image.get(), &needs);
+    return needs.size;
+}
 
 Result<MemoryAllocation> MemoryArena::allocateHooked(const MemoryRequest& request)
 {
@@ -148,23 +177,9 @@ Result<Buffer> MemoryArena::createBuffer(VkDeviceSize size, VkBufferUsageFlags u
 
 Result<Image> MemoryArena::createImage(const ImageDescription& description)
 {
-    VkImageCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
-    info.imageType = VK_IMAGE_TYPE_2D;
-    info.format = description.format;
-    info.extent = {description.extent.width, description.extent.height, 1};
-    info.mipLevels = description.mip_count;
-    info.arrayLayers = std::max(description.array_layers, 1u);
-    info.samples = VK_SAMPLE_COUNT_1_BIT;
-    info.tiling = VK_IMAGE_TILING_OPTIMAL;
-    info.usage = description.usage;
-    info.sharingMode = VK_SHARING_MODE_EXCLUSIVE;
-    info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
-    VkImage handle;
-    HEARTH_TRY_VK(device_->vk.vkCreateImage(device_->handle, &info, device_->allocator, &handle),
-                  "create an image");
     Image image;
-    image.handle = UniqueImage(*device_, handle);
+    HEARTH_ASSIGN_OR_RETURN(image.handle, createUnbound(*device_, description));
+    const VkImage handle = image.handle.get();
     image.format = description.format;
     image.extent = description.extent;
     image.mip_count = description.mip_count;
@@ -182,7 +197,8 @@ Result<Image> MemoryArena::createImage(const ImageDescription& description)
     view_info.viewType = description.array_layers > 0 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
     view_info.format = description.format;
     view_info.components = description.components;
-    view_info.subresourceRange = {description.aspect, 0, description.mip_count, 0, info.arrayLayers};
+    view_info.subresourceRange = {description.aspect, 0, description.mip_count, 0,
+                                  std::max(description.array_layers, 1u)};
     VkImageView view;
     HEARTH_TRY_VK(device_->vk.vkCreateImageView(device_->handle, &view_info, device_->allocator, &view),
                   "create an image view");

@@ -40,6 +40,9 @@ struct ImageDescription
     VkComponentMapping components{};      ///< of the view
 };
 
+/// Return the bytes that the device needs for an image. errors: device_failed.
+Result<VkDeviceSize> measureImage(const Device& device, const ImageDescription& description);
+
 /// Allocation from MemoryHooks, freed on destruction.
 class HookAllocation
 {

@@ -453,7 +453,7 @@ gpu::SceneOptions sceneOptions(const RenderOptions& options, const formats::Pack
                                std::span<const shared::Camera> cameras)
 {
     gpu::SceneOptions scene;
-    scene.geometry_budget = options.geometry_budget;
+    scene.memory_budget = options.memory_budget;
     scene.stream = {.read = pageReader(pack)};
     scene.frames_in_flight = 1;
     scene.decode_textures = true;

@@ -10,16 +10,16 @@ namespace hearth::viewer
 
 Result<std::unique_ptr<LoadedScene>> LoadedScene::load(VulkanHost& host, gpu::Renderer& renderer,
                                                        const formats::PackView& pack,
-                                                       uint64_t geometry_budget,
+                                                       uint64_t memory_budget,
                                                        const gpu::ShadowOptions& shadows)
 {
     std::unique_ptr<LoadedScene> loaded(new LoadedScene);
-    loaded->geometry_budget_ = geometry_budget;
+    loaded->memory_budget_ = memory_budget;
     gpu::SceneOptions options{.frames_in_flight = kFramesInFlight,
-                              .geometry_budget = geometry_budget,
+                              .memory_budget = memory_budget,
                               .shadows = shadows,
                               .decode_textures = true};
-    if (geometry_budget > 0)
+    if (memory_budget > 0)
     {
         loaded->loader_ =
             std::make_unique<PageLoader>([&pack](uint32_t page, std::span<std::byte> destination)

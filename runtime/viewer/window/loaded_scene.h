@@ -16,22 +16,22 @@ class LoadedScene
 {
 public:
     /// pack             outlives the scene
-    /// geometry_budget  bytes; 0: all geometry is resident
+    /// memory_budget  bytes; 0: all geometry is resident
     /// errors: same as gpu::Renderer::upload.
     static Result<std::unique_ptr<LoadedScene>> load(VulkanHost& host, gpu::Renderer& renderer,
-                                                     const formats::PackView& pack, uint64_t geometry_budget,
+                                                     const formats::PackView& pack, uint64_t memory_budget,
                                                      const gpu::ShadowOptions& shadows);
 
     gpu::Scene& scene() { return *scene_; }
     const gpu::Scene& scene() const { return *scene_; }
     const gpu::CullStatisticsPass& statistics() const { return *statistics_; }
-    uint64_t geometryBudget() const { return geometry_budget_; } ///< as requested
+    uint64_t memoryBudget() const { return memory_budget_; } ///< as requested
     VkDeviceSize bytes() const;                                  ///< on the device
 
 private:
     LoadedScene() = default;
 
-    uint64_t geometry_budget_ = 0;
+    uint64_t memory_budget_ = 0;
     std::unique_ptr<gpu::Scene> scene_;
     std::optional<gpu::CullStatisticsPass> statistics_;
     /// destroyed before the scene, since it writes to the scene's memory

@@ -165,13 +165,13 @@ void buildPost(gpu::PostSettings& post)
 } // namespace
 
 Panel::Panel(const ViewSettings& settings, uint64_t geometry_bytes)
-    : streamed_(settings.geometry_budget > 0), curve_(settings.frame.lod_curve)
+    : streamed_(settings.memory_budget > 0), curve_(settings.frame.lod_curve)
 {
     // slots are larger than their pages: half as much again holds everything
     const uint64_t max_budget =
         std::clamp(geometry_bytes * 3 / 2 / kMib + 1, uint64_t{16}, uint64_t{1} << 20);
     max_budget_mib_ = static_cast<int>(max_budget);
-    const uint64_t budget = settings.geometry_budget / kMib;
+    const uint64_t budget = settings.memory_budget / kMib;
     budget_mib_ = streamed_ ? static_cast<int>(std::clamp(budget, uint64_t{1}, max_budget)) : max_budget_mib_;
 }
 
@@ -278,7 +278,7 @@ void Panel::buildStreaming(ViewSettings& settings, const PanelData& facts)
         changed |= ImGui::IsItemDeactivatedAfterEdit();
     }
     if (changed)
-        settings.geometry_budget = streamed_ ? static_cast<uint64_t>(budget_mib_) * kMib : 0;
+        settings.memory_budget = streamed_ ? static_cast<uint64_t>(budget_mib_) * kMib : 0;
     showProblem(facts.problem);
     ImGui::Text("scene %.1f MiB, attachments %.1f MiB", mib(facts.scene.bytes()), mib(facts.target_bytes));
     const gpu::SceneStream* stream = facts.scene.scene().stream.get();

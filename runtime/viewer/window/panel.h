@@ -16,7 +16,7 @@ struct ViewSettings
 {
     FrameSettings frame;
     PlaybackSettings playback{};
-    uint64_t geometry_budget = 0; ///< bytes; 0: all geometry is resident
+    uint64_t memory_budget = 0; ///< bytes; 0: all geometry is resident
     bool count_culling = false;
     bool panel = true;
     std::optional<size_t> camera{}; ///< request: go to this one of PanelData::cameras

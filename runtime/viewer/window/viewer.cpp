@@ -92,7 +92,7 @@ Viewer::Viewer(const ViewOptions& options, const formats::PackView& pack, Playba
     : pack_(pack),
       settings_{.frame = options.settings,
                 .playback = playbackSettings(options.animation, playback),
-                .geometry_budget = options.geometry_budget},
+                .memory_budget = options.memory_budget},
       panel_(settings_, geometryBytes(pack)),
       camera_(start, flySpeed(pack, start.position)),
       clips_(clipNames(pack)),
@@ -140,7 +140,7 @@ Status Viewer::open(const ViewOptions& options)
     HEARTH_ASSIGN_OR_RETURN(meter_, FrameMeter::create(*host_, device));
     HEARTH_ASSIGN_OR_RETURN(imgui_, ImguiLayer::create(*window_, *host_, device, *swapchain_));
     HEARTH_ASSIGN_OR_RETURN(
-        scene_, LoadedScene::load(*host_, *renderer_, pack_, settings_.geometry_budget, shadows_));
+        scene_, LoadedScene::load(*host_, *renderer_, pack_, settings_.memory_budget, shadows_));
     return success();
 }
 
@@ -239,15 +239,15 @@ Status Viewer::applySettings()
     HEARTH_TRY(prepareLightMethod());
     drawn_ = settings_.frame;
     resized_ = resized_ || (targets_ && targets_->options().may_bloom != needsBloomLevels(drawn_));
-    if (settings_.geometry_budget == scene_->geometryBudget())
+    if (settings_.memory_budget == scene_->memoryBudget())
         return success();
     // the present scene stays until the new one is ready
     Result<std::unique_ptr<LoadedScene>> scene =
-        LoadedScene::load(*host_, renderer(), pack_, settings_.geometry_budget, shadows_);
+        LoadedScene::load(*host_, renderer(), pack_, settings_.memory_budget, shadows_);
     problem_ = scene.ok() ? "" : formatMessage(scene.error());
     if (!scene.ok())
     {
-        settings_.geometry_budget = scene_->geometryBudget();
+        settings_.memory_budget = scene_->memoryBudget();
         return success();
     }
     return show(std::move(scene).value());
@@ -280,7 +280,7 @@ Status Viewer::supportSettings()
                             gpu::Renderer::create(host_->description(), options));
     HEARTH_TRY(renderer->prepareOverdraw());
     HEARTH_ASSIGN_OR_RETURN(std::unique_ptr<LoadedScene> scene,
-                            LoadedScene::load(*host_, *renderer, pack_, scene_->geometryBudget(), shadows_));
+                            LoadedScene::load(*host_, *renderer, pack_, scene_->memoryBudget(), shadows_));
     HEARTH_TRY(frames_->waitForAll());
     targets_.reset();
     std::swap(extended_renderer_, renderer); // the one before goes after the scene that it drew

@@ -458,7 +458,7 @@ static hearth_result draw_scene(c_caller* caller, hearth_scene* scene, hearth_ta
     if (create_readback(caller, (VkDeviceSize)image->width * image->height * 8 + 16, &memory) < 0 ||
         caller->vkCreateQueryPool(caller->device, &queries, NULL, &image->frame.timestamps) < 0)
         result = HEARTH_ERROR_DEVICE_FAILED;
-    if (result == HEARTH_OK && image->scene.geometry_budget > 0)
+    if (result == HEARTH_OK && image->scene.memory_budget > 0)
         result = stream(caller, scene, targets, image);
     if (result == HEARTH_OK)
         result = record(caller, scene, targets, image, &memory);

@@ -63,7 +63,7 @@ Reader::~Reader()
 hearth_scene_options streamedBy(Reader& reader, uint64_t budget_bytes)
 {
     hearth_scene_options options = HEARTH_SCENE_OPTIONS_INIT;
-    options.geometry_budget = budget_bytes;
+    options.memory_budget = budget_bytes;
     options.read = Reader::read;
     options.read_user = &reader;
     return options;

@@ -323,7 +323,7 @@ TEST_F(CFrameRulesTest, aSceneWithoutABudgetDoesNotStream)
     hearth_stream_counters counters = HEARTH_STREAM_COUNTERS_INIT;
     const hearth_frame frame = makeFrame();
     EXPECT_EQ(hearth_scene_begin_frame(scene_, 1, 0), HEARTH_ERROR_USAGE);
-    EXPECT_THAT(hearth_last_error(renderer_), HasSubstr("no geometry_budget"));
+    EXPECT_THAT(hearth_last_error(renderer_), HasSubstr("no memory_budget"));
     EXPECT_EQ(hearth_scene_get_stream_counters(scene_, &counters), HEARTH_ERROR_USAGE);
     hearth_shadow_counters shadows = HEARTH_SHADOW_COUNTERS_INIT;
     EXPECT_EQ(hearth_scene_get_shadow_counters(scene_, &shadows), HEARTH_ERROR_USAGE);

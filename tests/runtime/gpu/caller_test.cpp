@@ -308,7 +308,7 @@ TEST_F(CallerTest, itsMemoryIsUsedForEverythingAndGivenBack)
     EXPECT_EQ(drawOnce(hooked), expected);
     EXPECT_GT(allocator.requests, 20u);
     EXPECT_TRUE(allocator.live.empty());
-    EXPECT_EQ(drawOnce(hooked, {.geometry_budget = 8 << 20, .stream = {.read = reader()}}).size(),
+    EXPECT_EQ(drawOnce(hooked, {.memory_budget = 8 << 20, .stream = {.read = reader()}}).size(),
               expected.size());
     EXPECT_TRUE(allocator.live.empty());
     EXPECT_EQ(spy.allocations, 0u) << "none beside the hooks";
@@ -426,7 +426,7 @@ TEST_F(CallerTest, itIsToldWhatIsDegraded)
     ASSERT_GT(page_count, 1u);
     // page 0 may be pinned from the start, and not read by the reader
     for (uint32_t page = 0; page < page_count && messages.empty(); ++page)
-        (void)drawOnce(device, {.geometry_budget = 8 << 20, .stream = {.read = reader(page)}},
+        (void)drawOnce(device, {.memory_budget = 8 << 20, .stream = {.read = reader(page)}},
                        {.error_pixels = 0});
     ASSERT_EQ(messages.size(), 1u);
     EXPECT_THAT(messages[0], testing::HasSubstr("cannot be read"));

@@ -122,7 +122,7 @@ TEST_F(DeformationTwinTest, aStreamedSceneAsksAsItsTwinAndEndsAsTheWholeImage)
     for (const formats::PageRecord& page : test.pack().pages())
         bytes += 2 * page.size;
     const auto streamed =
-        upload(test.pack(), {.frames_in_flight = 1, .geometry_budget = bytes, .stream = {.read = reader}});
+        upload(test.pack(), {.frames_in_flight = 1, .memory_budget = bytes, .stream = {.read = reader}});
     uint64_t serial = 0;
     size_t requested = 0;
     for (int view = 0; view < 6; ++view)

@@ -200,7 +200,7 @@ void ForwardRenderer::drawMaterial(VkCommandBuffer commands, const gpu::Scene& s
                                    uint32_t bin, VkPipeline pipeline) const
 {
     const VkPipelineLayout layout = forward_layout_.get();
-    const VkDescriptorSet sets[] = {scene.frame().main.draw_set, scene.materials[row].set,
+    const VkDescriptorSet sets[] = {scene.frame().main.draw_set, materialSet(scene, row),
                                     scene.frame().main.bins_set};
     const shared::ShadingPush neutral{.exposure = 1};
     const ForwardPush push{bin, row + 1};
@@ -270,7 +270,7 @@ std::vector<std::array<float, 4>> ForwardRenderer::uvDerivatives(const gpu::Scen
         [&](VkCommandBuffer commands)
         {
             begin(commands, derivatives_pass_.get(), framebuffer.get(), extent);
-            const VkDescriptorSet sets[] = {scene.frame().main.draw_set, scene.materials[0].set,
+            const VkDescriptorSet sets[] = {scene.frame().main.draw_set, materialSet(scene, 0),
                                             targets.attachments().set};
             const shared::ShadingPush push{};
             device_.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline.get());

@@ -136,7 +136,7 @@ protected:
     {
         disk_->forget(); // reads of another scene
         streamed_ = upload(*pack_, {.frames_in_flight = 3,
-                                    .geometry_budget = budget_bytes,
+                                    .memory_budget = budget_bytes,
                                     .stream = {.read = disk_->reader(random_), .max_loads = max_loads}});
         uint64_t pool_bytes = 0;
         for (const gpu::Buffer& slice : streamed_->buffers.pool)
@@ -393,7 +393,7 @@ TEST_F(StreamTest, aBudgetBelowThePinnedPagesIsRefused)
         [&](VkCommandBuffer commands) -> Status
         {
             auto scene = renderer().upload(
-                *pack_, commands, {.geometry_budget = 16, .stream = {.read = disk_->reader(random_)}});
+                *pack_, commands, {.memory_budget = 16, .stream = {.read = disk_->reader(random_)}});
             EXPECT_FALSE(scene.ok());
             return scene.ok() ? success() : Status(scene.error());
         });

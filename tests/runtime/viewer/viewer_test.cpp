@@ -59,7 +59,7 @@ TEST(RenderOptions, defaultsFitTheScene)
     EXPECT_FALSE(options->camera.has_value());
     EXPECT_EQ(options->settings.error_pixels, 1);
     EXPECT_EQ(options->settings.cull_flags, shared::kCullEverything);
-    EXPECT_EQ(options->geometry_budget, 0u) << "all is resident";
+    EXPECT_EQ(options->memory_budget, 0u) << "all is resident";
     EXPECT_GT(options->shadows.options.max_maps, 0u) << "shadows";
     EXPECT_TRUE(options->shadows.fit_maps);
 }
@@ -171,7 +171,7 @@ TEST(RenderOptions, everyOptionIsRead)
     EXPECT_EQ(options->settings.shaded_area, gpu::ShadedArea::tiles);
     EXPECT_EQ(options->settings.ambient_occlusion, shared::kAmbientOcclusionSmoothstep);
     EXPECT_EQ(options->settings.specular_occlusion, shared::kSpecularOcclusionTable);
-    EXPECT_EQ(options->geometry_budget, 3u << 20);
+    EXPECT_EQ(options->memory_budget, 3u << 20);
     ASSERT_EQ(options->settings.lod_curve.size(), 2u);
     EXPECT_EQ(options->settings.lod_curve[1].distance, 50);
     EXPECT_EQ(options->settings.lod_curve[1].factor, 0.5f);

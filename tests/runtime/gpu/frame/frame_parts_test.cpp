@@ -159,7 +159,7 @@ TEST_F(FramePartsTest, areTheFrameOfAStreamedScene)
     const pack::PageReader reader =
         [this](uint32_t page, std::span<std::byte> destination, pack::ReadDone done)
     { done(pack_->decodePage(page, destination).ok()); };
-    expectSame({}, {.frames_in_flight = 1, .geometry_budget = 8 << 20, .stream = {.read = reader}});
+    expectSame({}, {.frames_in_flight = 1, .memory_budget = 8 << 20, .stream = {.read = reader}});
 }
 
 } // namespace hearth::test

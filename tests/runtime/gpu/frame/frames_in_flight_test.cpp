@@ -347,10 +347,10 @@ TEST_F(FramesInFlightTest, streamedScenesConverge)
     for (const uint32_t in_flight : {1u, 2u, 3u})
     {
         const auto images =
-            drawFrames(pack, {.geometry_budget = 8 << 20, .stream = {.read = reader}}, in_flight, make);
+            drawFrames(pack, {.memory_budget = 8 << 20, .stream = {.read = reader}}, in_flight, make);
         EXPECT_EQ(images.back(), resident.back()) << in_flight;
     }
-    recordTogether(pack, {.geometry_budget = 8 << 20, .stream = {.read = reader}}, make);
+    recordTogether(pack, {.memory_budget = 8 << 20, .stream = {.read = reader}}, make);
 }
 
 TEST_F(FramesInFlightTest, bricksUnderALightThatChanges)

@@ -181,7 +181,7 @@ TEST_F(ShadowCacheTest, keptMapsAreFreshOnesWhilePagesComeAndGo)
     const auto streamed = [&](bool moving_layers)
     {
         gpu::SceneOptions options;
-        options.geometry_budget = 2400 << 10;
+        options.memory_budget = 2400 << 10;
         options.stream.max_loads = 1;
         options.frames_in_flight = 1;
         options.stream.read = [&pack](uint32_t page, std::span<std::byte> destination, pack::ReadDone done)

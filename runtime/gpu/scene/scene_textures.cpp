@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/scene/scene_textures.h"
+
+#include "formats/gpu_shared/decisions.h"
+#include "runtime/gpu/scene/scene.h"
+#include "runtime/gpu/scene/texture_upload.h"
+#include "runtime/gpu/vulkan/image_barrier.h"
+
+#include <algorithm>
+#include <string>
+
+namespace hearth::gpu
+{
+
+namespace
+{
+
+constexpr VkImageUsageFlags kStreamedUsage =
+    VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+
+/// Slots of staging memory for each mip in flight: a mip of 1024 x 1024 texels of a byte has 16 pieces.
+constexpr uint32_t kSlotsPerLoad = 2;
+
+/// Describe an image that begins with a mip of the pack's.
+ImageDescription describe(const formats::ImageRecord& record, uint32_t first_mip)
+{
+    const formats::MipExtent extent = formats::mipExtent(record, first_mip);
+    return {.format = static_cast<VkFormat>(formats::findTexelFormat(record.format)->vulkan_format),
+            .extent = {extent.width, extent.height},
+            .mip_count = record.mip_count - first_mip,
+            .usage = kStreamedUsage,
+            .components = viewComponents(record)};
+}
+
+bool isStreamed(const Device& device, const formats::ImageRecord& record)
+{
+    return device.texel_formats[record.format] && record.pieces.count > 0 &&
+           formats::firstTailMip(record) > 0 &&
+           std::max(record.width, record.height) <= device.limits.maxImageDimension2D;
+}
+
+VkExtent3D levelExtent(const Image& image, uint32_t level)
+{
+    return {std::max(1u, image.extent.width >> level), std::max(1u, image.extent.height >> level), 1};
+}
+
+/// Convert a word of shared::texelRequest to log2 of the pixels of a UV unit, at least as many as it means: its
+/// logarithm is off by so much at most.
+float pixelsFromRequest(uint32_t request)
+{
+    constexpr float kLogarithmError = 0.0861f;
+    constexpr float kBiasOctaves = 64;
+    return static_cast<float>(request) / static_cast<float>(1u << 23) - kBiasOctaves +
+           kLogarithmError;
+}
+
+uint32_t maxPieceBytes(const formats::PackView& pack)
+{
+    uint32_t bytes = formats::kMaxPieceBytes;
+    for (const formats::TexturePieceRecord& piece : pack.texturePieces())
+        bytes = std::max(bytes, piece.size);
+    return (bytes + 63) / 64 * 64;
+}
+
+} // namespace
+
+Result<TextureSizes> measureTextures(const Device& device, const formats::PackView& pack)
+{
+    TextureSizes sizes(pack.images().size());
+    const std::vector<bool> used = findUsedImages(pack);
+    for (uint32_t image = 0; image < sizes.size(); ++image)
+    {
+        const formats::ImageRecord& record = pack.images()[image];
+        if (!used[image] || !isStreamed(device, record))
+            continue;
+        for (uint32_t mip = 0; mip <= formats::firstTailMip(record); ++mip)
+        {
+            HEARTH_ASSIGN_OR_RETURN(const VkDeviceSize bytes, measureImage(device, describe(record, mip)));
+            sizes[image].push_back(bytes);
+        }
+    }
+    return sizes;
+}
+
+Result<std::unique_ptr<SceneTextures>> SceneTextures::create(const Device& device,
+                                                             const formats::PackView& pack,
+                                                             const TextureSizes& sizes, uint64_t budget_bytes,
+                                                             const StreamOptions& options)
+{
+    const uint32_t slot_bytes = maxPieceBytes(pack);
+    const VkDeviceSize staging_bytes = VkDeviceSize{kSlotsPerLoad} * options.max_loads * slot_bytes;
+    MemoryArena arena(device, 0);
+    HEARTH_ASSIGN_OR_RETURN(
+        Buffer staging,
+        arena.createBuffer(staging_bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::staging));
+    HEARTH_ASSIGN_OR_RETURN(
+        pack::TextureStream stream,
+        pack::TextureStream::create(pack, pack::TextureGraph(sizes),
+                                    {.budget_bytes = budget_bytes,
+                                     .max_loads = options.max_loads,
+                                     .slot_bytes = slot_bytes,
+                                     .read = options.read},
+                                    {staging.mapped, static_cast<size_t>(staging_bytes)}));
+    return std::unique_ptr<SceneTextures>(
+        new SceneTextures(device, pack, std::move(arena), std::move(staging), std::move(stream), slot_bytes));
+}
+
+SceneTextures::SceneTextures(const Device& device, const formats::PackView& pack, MemoryArena arena,
+                             Buffer staging, pack::TextureStream stream, uint32_t slot_bytes)
+    : device_(device),
+      pack_(pack),
+      arena_(std::move(arena)),
+      staging_(std::move(staging)),
+      stream_(std::move(stream)),
+      slot_bytes_(slot_bytes),
+      images_(pack.images().size()),
+      pieces_(pack.images().size()),
+      rows_of_image_(pack.images().size())
+{
+    for (uint32_t image = 0; image < images_.size(); ++image)
+        if (stream_.graph().mipCount(image) > 0)
+            pieces_[image] = formats::listTexturePieces(pack.images()[image]);
+    for (const LayeredMaterial& material : readMaterials(pack))
+    {
+        const auto row = static_cast<uint32_t>(uses_.size());
+        std::vector<pack::TextureUse>& uses = uses_.emplace_back();
+        for (const formats::TextureRef& texture : materialTextures(material))
+            if (texture.image != kInvalidIndex && stream_.graph().mipCount(texture.image) > 0)
+            {
+                uses.push_back(pack::makeTextureUse(pack, texture));
+                std::vector<uint32_t>& rows = rows_of_image_[texture.image];
+                if (rows.empty() || rows.back() != row)
+                    rows.push_back(row);
+            }
+    }
+}
+
+Status SceneTextures::uploadTails(Uploader& uploader)
+{
+    for (uint32_t image = 0; image < images_.size(); ++image)
+    {
+        if (stream_.graph().mipCount(image) == 0)
+            continue;
+        const formats::TexturePiece& tail = pieces_[image].back();
+        std::vector<std::byte> texels(tail.size);
+        const formats::Range& pieces = pack_.images()[image].pieces;
+        HEARTH_TRY(pack_.decodePiece(pieces.first + pieces.count - 1, texels));
+        HEARTH_ASSIGN_OR_RETURN(images_[image].current, makeImage(image, tail.mip));
+        HEARTH_TRY(uploader.upload(images_[image].current->image, texels,
+                                   blockSize(*formats::findTexelFormat(pack_.images()[image].format))));
+    }
+    return success();
+}
+
+Result<SceneTextures::Held> SceneTextures::makeImage(uint32_t image, uint32_t first_mip) const
+{
+    Held held{MemoryArena(device_, 0), {}, first_mip};
+    HEARTH_ASSIGN_OR_RETURN(held.image, held.arena.createImage(describe(pack_.images()[image], first_mip)));
+    return held;
+}
+
+void SceneTextures::beginFrame(uint64_t serial, uint64_t completed_serial)
+{
+    serial_ = serial;
+    std::erase_if(retired_, [&](const Retired& retired) { return retired.serial <= completed_serial; });
+    changes_ = stream_.beginFrame(serial, completed_serial);
+    failures_ += static_cast<uint32_t>(changes_.failed.size());
+    for (const pack::TextureMip& failed : changes_.failed)
+    {
+        images_[failed.image].incoming.reset();
+        warn(device_, pack_.name(),
+             "mip " + std::to_string(failed.mip) + " of image " + std::to_string(failed.image),
+             "cannot be read: the texture stays blurred");
+    }
+}
+
+void SceneTextures::request(std::span<const uint32_t> materials)
+{
+    for (size_t row = 0; row < uses_.size(); ++row)
+        if (materials[row] != 0)
+            for (const pack::TextureUse& use : uses_[row])
+                stream_.request(use, pixelsFromRequest(materials[row]));
+}
+
+void SceneTextures::record(VkCommandBuffer commands, const Scene& scene)
+{
+    outdated_.resize(scene.frames.size(), std::vector<bool>(uses_.size(), false));
+    recordEvictions(commands);
+    recordUploads(commands);
+    recordPublished(commands);
+    updateSets(scene);
+}
+
+void SceneTextures::recordEvictions(VkCommandBuffer commands)
+{
+    for (size_t i = 0; i < changes_.evicted.size(); ++i)
+    {
+        const pack::TextureMip& evicted = changes_.evicted[i];
+        // the next coarser mip goes as well: one image replaces both
+        if (std::ranges::find(changes_.evicted, pack::TextureMip{evicted.image, evicted.mip + 1}) !=
+            changes_.evicted.end())
+            continue;
+        std::optional<Held> smaller;
+        if (beginImage(commands, smaller, evicted.image, evicted.mip + 1))
+            replace(commands, evicted.image, std::move(*smaller));
+    }
+}
+
+/// Create an image that copies can fill. False if the device has no memory for it, which is told.
+bool SceneTextures::beginImage(VkCommandBuffer commands, std::optional<Held>& place, uint32_t image,
+                               uint32_t first_mip)
+{
+    Result<Held> made = makeImage(image, first_mip);
+    if (!made.ok())
+    {
+        warn(device_, pack_.name(), "image " + std::to_string(image),
+             "keeps the mips that it has: " + made.error().detail);
+        return false;
+    }
+    place = std::move(*made);
+    transition(device_, commands, place->image, VK_IMAGE_LAYOUT_UNDEFINED,
+               VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 0, VK_ACCESS_TRANSFER_WRITE_BIT,
+               VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT);
+    return true;
+}
+
+void SceneTextures::recordUploads(VkCommandBuffer commands)
+{
+    for (const pack::PieceUpload& upload : changes_.uploads)
+    {
+        std::optional<Held>& incoming = images_[upload.mip.image].incoming;
+        if (!incoming && !beginImage(commands, incoming, upload.mip.image, upload.mip.mip))
+            continue;
+        const formats::TexturePiece& piece = pieces_[upload.mip.image][upload.piece];
+        bytes_streamed_ += piece.size;
+        const VkBufferImageCopy region{VkDeviceSize{upload.staging_slot} * slot_bytes_,
+                                       0,
+                                       0,
+                                       {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1},
+                                       {0, static_cast<int32_t>(piece.first_row), 0},
+                                       {incoming->image.extent.width, piece.rows, 1}};
+        device_.vk.vkCmdCopyBufferToImage(commands, staging_.handle.get(), incoming->image.handle.get(),
+                                          VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region);
+    }
+}
+
+void SceneTextures::recordPublished(VkCommandBuffer commands)
+{
+    for (const pack::TextureMip& published : changes_.published)
+        if (std::optional<Held>& incoming = images_[published.image].incoming)
+        {
+            Held held = std::move(*incoming);
+            incoming.reset();
+            replace(commands, published.image, std::move(held));
+        }
+}
+
+/// Fill the mips of an image that the current one has, and put it in its place.
+void SceneTextures::replace(VkCommandBuffer commands, uint32_t image, Held held)
+{
+    std::optional<Held>& current = images_[image].current;
+    copyMips(commands, *current, held, std::max(current->first_mip, held.first_mip));
+    transition(device_, commands, held.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_ACCESS_TRANSFER_WRITE_BIT,
+               VK_ACCESS_SHADER_READ_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
+               VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT);
+    retired_.push_back({std::move(*current), serial_});
+    current = std::move(held);
+    for (std::vector<bool>& rows : outdated_)
+        for (const uint32_t row : rows_of_image_[image])
+            rows[row] = true;
+}
+
+/// Copy the mips from `first_mip` of the pack's image on, which both have. Frames before have read `from`; none
+/// reads it after.
+void SceneTextures::copyMips(VkCommandBuffer commands, const Held& from, const Held& to,
+                             uint32_t first_mip) const
+{
+    transition(device_, commands, from.image, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+               VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_ACCESS_SHADER_READ_BIT, VK_ACCESS_TRANSFER_READ_BIT,
+               VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT);
+    std::vector<VkImageCopy> regions;
+    for (uint32_t level = first_mip - from.first_mip; level < from.image.mip_count; ++level)
+        regions.push_back({{VK_IMAGE_ASPECT_COLOR_BIT, level, 0, 1},
+                           {},
+                           {VK_IMAGE_ASPECT_COLOR_BIT, level + from.first_mip - to.first_mip, 0, 1},
+                           {},
+                           levelExtent(from.image, level)});
+    device_.vk.vkCmdCopyImage(commands, from.image.handle.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+                              to.image.handle.get(), VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                              static_cast<uint32_t>(regions.size()), regions.data());
+}
+
+/// Write the sets of materials whose images have changed since this frame in flight was recorded last.
+void SceneTextures::updateSets(const Scene& scene)
+{
+    const uint32_t frame = scene.tables->frame;
+    for (uint32_t row = 0; row < outdated_[frame].size(); ++row)
+        if (outdated_[frame][row])
+        {
+            writeMaterialTextures(device_, scene, row, scene.materials[row].sets[frame]);
+            if (scene.joined_sets != nullptr)
+                scene.joined_sets->setMaterial(device_, frame, row, scene.materials[row].sets[frame]);
+            outdated_[frame][row] = false;
+        }
+}
+
+TextureStatistics SceneTextures::statistics() const
+{
+    const pack::Residency& residency = stream_.residency();
+    uint64_t on_device = 0;
+    for (const StreamedImage& image : images_)
+        for (const std::optional<Held>* held : {&image.current, &image.incoming})
+            on_device += held->has_value() ? (*held)->image.bytes : 0;
+    for (const Retired& retired : retired_)
+        on_device += retired.held.image.bytes;
+    return {.budget_bytes = stream_.budgetBytes(),
+            .bytes_in_use = residency.bytesInUse(),
+            .bytes_on_device = on_device,
+            .bytes_streamed = bytes_streamed_,
+            .failures = failures_,
+            .error_scale = residency.errorScale()};
+}
+
+} // namespace hearth::gpu

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/pack/texture_stream.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+namespace hearth::pack
+{
+
+Result<TextureStream> TextureStream::create(const formats::PackView& view, TextureGraph graph,
+                                            const TextureStreamOptions& options, std::span<std::byte> staging)
+{
+    HEARTH_ASSERT(options.slot_bytes > 0 && staging.size() >= options.slot_bytes);
+    HEARTH_ASSIGN_OR_RETURN(Residency residency,
+                            Residency::create(graph.nodes(), {.budget_bytes = options.budget_bytes,
+                                                              .max_loads = options.max_loads}));
+    return TextureStream(view, std::move(graph), std::move(residency), options, staging);
+}
+
+TextureStream::TextureStream(const formats::PackView& view, TextureGraph graph, Residency residency,
+                             const TextureStreamOptions& options, std::span<std::byte> staging)
+    : view_(&view),
+      options_(options),
+      staging_(staging),
+      graph_(std::move(graph)),
+      residency_(std::move(residency)),
+      staging_of_piece_(view.texturePieces().size(), kInvalidIndex)
+{
+    free_staging_.resize(staging.size() / options.slot_bytes);
+    std::iota(free_staging_.rbegin(), free_staging_.rend(), 0u);
+    queue_ = std::make_unique<CompletionQueue>(free_staging_.size());
+    for (uint32_t image = 0; image < view.images().size(); ++image)
+    {
+        const bool is_streamed = graph_.mipCount(image) > 0;
+        pieces_.push_back(is_streamed ? formats::listTexturePieces(view.images()[image])
+                                      : std::vector<formats::TexturePiece>());
+    }
+}
+
+TextureChanges TextureStream::beginFrame(uint64_t serial, uint64_t completed_serial)
+{
+    serial_ = serial;
+    freeStaging(completed_serial);
+    takeCompletions();
+    endLoads(completed_serial);
+    const FrameChanges changes = residency_.beginFrame(serial, lag(completed_serial));
+    frames_.push_back(serial);
+    const auto list = [&](std::vector<TextureMip>& mips, std::span<const uint32_t> nodes)
+    {
+        mips.clear();
+        for (const uint32_t node : nodes)
+            mips.push_back(graph_.mip(node));
+    };
+    list(evicted_, changes.evicted);
+    list(published_, changes.published);
+    list(failed_, changes.failed);
+    if (!evicted_.empty() || !published_.empty())
+        changed_serial_ = serial;
+    startReads();
+    return {evicted_, uploads_, published_, failed_};
+}
+
+/// Return the frame before the last one that has completed. An image that is replaced in a frame is read by
+/// the copies of that frame: its memory is free one frame later than that of a page.
+uint64_t TextureStream::lag(uint64_t completed_serial)
+{
+    while (frames_.size() > 1 && frames_[1] <= completed_serial)
+    {
+        lagging_serial_ = frames_.front();
+        frames_.erase(frames_.begin());
+    }
+    return lagging_serial_;
+}
+
+void TextureStream::freeStaging(uint64_t completed_serial)
+{
+    const auto end =
+        std::find_if(pending_copies_.begin(), pending_copies_.end(),
+                     [&](const PendingCopy& copying) { return copying.serial > completed_serial; });
+    for (auto copying = pending_copies_.begin(); copying != end; ++copying)
+        free_staging_.push_back(copying->staging_slot);
+    pending_copies_.erase(pending_copies_.begin(), end);
+}
+
+void TextureStream::takeCompletions()
+{
+    uploads_.clear();
+    const auto first_piece = static_cast<uint32_t>(view_->pages().size());
+    for (const auto& [number, ok] : queue_->take())
+    {
+        --reads_in_flight_;
+        const uint32_t piece = number - first_piece;
+        const uint32_t staging_slot = std::exchange(staging_of_piece_[piece], kInvalidIndex);
+        const uint32_t image = view_->findPieceImage(piece);
+        const uint32_t own = piece - view_->images()[image].pieces.first;
+        const TextureMip mip{image, pieces_[image][own].mip};
+        Load& load = *findLoad(graph_.node(mip));
+        --load.reads;
+        load.is_failed = load.is_failed || !ok;
+        if (load.is_failed)
+        {
+            free_staging_.push_back(staging_slot);
+            continue;
+        }
+        uploads_.push_back({mip, own, staging_slot});
+        pending_copies_.push_back({staging_slot, serial_});
+        load.copy_serial = serial_;
+    }
+}
+
+std::vector<TextureStream::Load>::iterator TextureStream::findLoad(uint32_t node)
+{
+    return std::find_if(loads_.begin(), loads_.end(), [&](const Load& load) { return load.node == node; });
+}
+
+/// Report the loads that have ended: those of which all pieces are there; those that failed, once no frame
+/// copies into their images; and those that wait for a mip that failed, which the policy discards.
+void TextureStream::endLoads(uint64_t completed_serial)
+{
+    std::vector<uint32_t> orphans;
+    for (const Load& load : loads_)
+    {
+        const uint32_t needed = graph_.nodes().needs(load.node).front();
+        if (!residency_.isResident(needed) && findLoad(needed) == loads_.end())
+            orphans.push_back(load.node);
+    }
+    const auto isEnded = [&](const Load& load)
+    {
+        const bool is_orphan = std::ranges::find(orphans, load.node) != orphans.end();
+        const bool is_read =
+            load.reads == 0 && (load.is_failed ? load.copy_serial <= completed_serial : load.pieces.empty());
+        if (is_orphan || is_read)
+            residency_.completed(load.node, is_orphan || !load.is_failed);
+        return is_orphan || is_read;
+    };
+    std::erase_if(loads_, isEnded);
+}
+
+void TextureStream::request(const TextureUse& use, float pixels_log2)
+{
+    const uint32_t count = graph_.mipCount(use.image);
+    for (uint32_t mip = 0; mip + 1 < count; ++mip)
+        if (const float priority = mipPriority(use, pixels_log2, mip) / residency_.errorScale(); priority > 1)
+            residency_.request(graph_.node({use.image, mip}), priority);
+}
+
+void TextureStream::schedule(uint64_t feedback_serial)
+{
+    const float scale_before = residency_.errorScale();
+    const auto started = residency_.schedule();
+    if (!started.empty() || residency_.errorScale() != scale_before)
+        changed_serial_ = serial_;
+    for (const uint32_t node : started)
+    {
+        const TextureMip& mip = graph_.mip(node);
+        Load load{.node = node};
+        for (auto piece = static_cast<uint32_t>(pieces_[mip.image].size()); piece-- > 0;)
+            if (pieces_[mip.image][piece].mip == mip.mip)
+                load.pieces.push_back(piece);
+        loads_.push_back(std::move(load));
+    }
+    if (residency_.atRest() && feedback_serial >= changed_serial_)
+        settled_serial_ = feedback_serial;
+    startReads();
+}
+
+/// Read pieces in the order of the loads. A mip waits until the next coarser one is resident: so its image
+/// exists only from then on, and none has to go because a coarser mip failed.
+void TextureStream::startReads()
+{
+    for (Load& load : loads_)
+        if (residency_.isResident(graph_.nodes().needs(load.node).front()))
+            while (!load.is_failed && !load.pieces.empty() && !free_staging_.empty())
+                startRead(load);
+}
+
+void TextureStream::startRead(Load& load)
+{
+    const TextureMip& mip = graph_.mip(load.node);
+    const uint32_t own = load.pieces.back();
+    load.pieces.pop_back();
+    const uint32_t piece = view_->images()[mip.image].pieces.first + own;
+    const uint32_t slot = free_staging_.back();
+    free_staging_.pop_back();
+    staging_of_piece_[piece] = slot;
+    ++load.reads;
+    ++reads_in_flight_;
+    const auto number = static_cast<uint32_t>(view_->pages().size()) + piece;
+    options_.read(number,
+                  staging_.subspan(size_t{slot} * options_.slot_bytes, view_->texturePieces()[piece].size),
+                  ReadDone(*queue_, number));
+}
+
+uint32_t TextureStream::residentMip(uint32_t image) const
+{
+    uint32_t mip = graph_.mipCount(image) - 1;
+    while (mip > 0 && residency_.isResident(graph_.node({image, mip - 1})))
+        --mip;
+    return mip;
+}
+
+} // namespace hearth::pack
