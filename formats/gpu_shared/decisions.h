@@ -70,14 +70,20 @@ HEARTH_FUNCTION Float4 clipPosition(HEARTH_IN(FrameView) view, Float3 relative)
     return Float4(x, y, view.z_near, w);
 }
 
-/// True if the box, transformed by the instance, lies wholly outside one plane of the frustum. Exact for any
-/// affine matrix: the half extents become |A| h.
-HEARTH_FUNCTION bool boxOutsideFrustum(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
-                                       Float3 box_min, Float3 box_max)
+/// Box along the world axes, relative to the eye.
+struct EyeBox
+{
+    Float3 center;
+    Float3 half_size; ///< with a margin for rounding
+};
+
+/// Return the box along the world axes around a box of an instance. Exact for any affine matrix: the half extents
+/// become |A| h.
+HEARTH_FUNCTION EyeBox toEyeBox(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance, Float3 box_min,
+                                Float3 box_max)
 {
     HEARTH_PRECISE Float3 center = (box_min + box_max) * 0.5f;
     HEARTH_PRECISE Float3 half_size = (box_max - box_min) * 0.5f;
-    HEARTH_PRECISE Float3 relative = toEyeRelative(instance, view.eye, center);
     Float3 row_x = abs3(row3(instance.world_from_object_x));
     Float3 row_y = abs3(row3(instance.world_from_object_y));
     Float3 row_z = abs3(row3(instance.world_from_object_z));
@@ -90,11 +96,35 @@ HEARTH_FUNCTION bool boxOutsideFrustum(HEARTH_IN(FrameView) view, HEARTH_IN(Inst
                dot3(row_y, reach) + abs(instance.world_from_object_y.w - view.eye.y),
                dot3(row_z, reach) + abs(instance.world_from_object_z.w - view.eye.z));
     HEARTH_PRECISE Float3 bound = extent + magnitude * kRoundingSlack;
+    EyeBox box;
+    box.center = toEyeRelative(instance, view.eye, center);
+    box.half_size = bound;
+    return box;
+}
+
+/// Return the distance from the eye to the nearest point of the box along the world axes around a box of an
+/// instance: no point of the box is nearer.
+HEARTH_FUNCTION float boxDistance(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance, Float3 box_min,
+                                  Float3 box_max)
+{
+    EyeBox box = toEyeBox(view, instance, box_min, box_max);
+    HEARTH_PRECISE Float3 gap =
+        Float3(max(abs(box.center.x) - box.half_size.x, 0.0f), max(abs(box.center.y) - box.half_size.y, 0.0f),
+               max(abs(box.center.z) - box.half_size.z, 0.0f));
+    HEARTH_PRECISE float distance = sqrt(dot3(gap, gap));
+    return distance;
+}
+
+/// True if the box, transformed by the instance, lies wholly outside one plane of the frustum.
+HEARTH_FUNCTION bool boxOutsideFrustum(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
+                                       Float3 box_min, Float3 box_max)
+{
+    EyeBox box = toEyeBox(view, instance, box_min, box_max);
     for (int i = 0; i < 5; ++i)
     {
         Float3 normal = row3(view.planes[i]);
         HEARTH_PRECISE float reach_inside =
-            (dot3(normal, relative) + dot3(abs3(normal), bound)) + view.planes[i].w;
+            (dot3(normal, box.center) + dot3(abs3(normal), box.half_size)) + view.planes[i].w;
         if (reach_inside < 0.0f)
             return true;
     }
@@ -320,6 +350,36 @@ HEARTH_FUNCTION uint groupPriority(HEARTH_IN(FrameView) view, HEARTH_IN(Instance
     uint error_bits = floatBits(on_screen.pixels_m);
     uint least_bits = floatBits(least_pixels_m);
     return error_bits > least_bits ? error_bits - least_bits : 1u;
+}
+
+/// Unit of texelRequest: 2^-kTexelRequestBits octaves.
+HEARTH_CONSTANT int kTexelRequestBits = 23;
+
+/// Octaves that texelRequest adds, so that it is positive.
+HEARTH_CONSTANT int kTexelRequestOctaves = 64;
+
+/// Return the fineness that a view wants of the textures of a cluster: log2 of the pixels that a UV unit covers
+/// where the cluster is nearest. Bits of floats take the place of logarithms, whose last bits differ between
+/// devices: they are too small by up to 0.0861 octaves, so the result is off by so much either way.
+///
+/// density_code  ClusterRecord::uv_density
+/// distance      of the nearest point, metres
+/// returns       0: the cluster has no UVs
+HEARTH_FUNCTION uint texelRequest(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance, uint density_code,
+                                  float distance)
+{
+    if (density_code == 0u)
+        return 0u;
+    HEARTH_PRECISE float pixels_m = instance.scale_max * view.lod_scale;
+    int octaves = int(floatBits(pixels_m)) - int(floatBits(max(distance, view.z_near)));
+    int density = (int(density_code) - 128) << (kTexelRequestBits - 3);
+    int request = octaves - density + (kTexelRequestOctaves << kTexelRequestBits);
+    return request > 0 ? uint(request) : 1u;
+}
+
+HEARTH_FUNCTION uint uvDensityCode(HEARTH_IN(Cluster) cluster)
+{
+    return cluster.counts >> 8 & 255u;
 }
 
 /// True if the cluster passes the frustum test.

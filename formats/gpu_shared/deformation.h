@@ -266,6 +266,13 @@ HEARTH_FUNCTION bool deformedInFrustum(HEARTH_IN(FrameView) view, HEARTH_IN(Inst
            !boxOutsideFrustum(viewFromOrigin(view, instance), box.joint_instance, box.box_min, box.box_max);
 }
 
+/// Return the distance from the eye that no point of the cluster is nearer than.
+HEARTH_FUNCTION float deformedDistance(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
+                                       HEARTH_IN(TransformedBox) box)
+{
+    return boxDistance(viewFromOrigin(view, instance), box.joint_instance, box.box_min, box.box_max);
+}
+
 /// True if every triangle faces away, in a pose of the clips.
 /// joint  palette row of the cluster's joint
 HEARTH_FUNCTION bool deformedFacesAway(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,

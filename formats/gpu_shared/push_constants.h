@@ -59,6 +59,8 @@ struct PageRequestPush
 {
     uint first_item;
     uint item_count;
+    uint first_material;   ///< of the requests: behind those of the pages
+    uint default_material; ///< row of clusters without a material
 };
 
 struct CullStatisticsPush

@@ -51,7 +51,7 @@ struct Cluster
     uint extent_z;  ///< extent_shift << 16, level << 24
     uint cone;      ///< axis in the low half, cutoff
     uint cone_back; ///< vertex_count << 16
-    uint counts;    ///< triangle_count, page_word << 16
+    uint counts;    ///< triangle_count, uv_density << 8, page_word << 16
     uint material;
     uint group;
     uint refined_group;

@@ -165,8 +165,8 @@ Status checkClusterValues(const PackView& view, const MeshRecord& mesh, size_t i
     if (!NormalCode<8>::legal(cluster.cone_axis))
         return makeError(view, Issue::meaning_value, "cluster", i,
                          "the axis of its normal cone has no legal code");
-    if (cluster.reserved != 0)
-        return makeError(view, Issue::meaning_padding, "cluster", i, "a reserved field is not 0");
+    if (cluster.uv_density != 0 && (mesh.attributes & (kVertexUv0 | kVertexUv1)) == 0)
+        return makeError(view, Issue::meaning_value, "cluster", i, "it has a UV density, but no UVs");
     return success();
 }
 

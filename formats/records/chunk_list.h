@@ -85,7 +85,7 @@ inline constexpr std::array kChunkList{
                               "one for each mesh of the source, same index; then copies of some"),
     makeTableInfo<LevelRecord>(kChunkLevels, 1, ChunkPurpose::geometry, "levels of detail of all meshes"),
     makeTableInfo<GroupRecord>(kChunkGroups, 2, ChunkPurpose::geometry, "groups of all meshes"),
-    makeTableInfo<ClusterRecord>(kChunkClusters, 1, ChunkPurpose::geometry, "clusters of all meshes"),
+    makeTableInfo<ClusterRecord>(kChunkClusters, 2, ChunkPurpose::geometry, "clusters of all meshes"),
     makeTableInfo<PageRecord>(kChunkPageTable, 1, ChunkPurpose::geometry, "the geometry pages"),
     ChunkInfo{kChunkPageParents, 1, ChunkPurpose::geometry, "u32[]", false,
               "for each page, the pages that it refines"},

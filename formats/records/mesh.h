@@ -9,16 +9,16 @@
 namespace hearth::formats
 {
 
-inline constexpr uint32_t kChunkMeshes = fourCC("MESH");       ///< MeshRecord[]
-inline constexpr uint32_t kChunkLevels = fourCC("LEVL");       ///< LevelRecord[]
-inline constexpr uint32_t kChunkGroups = fourCC("GRUP");       ///< GroupRecord[]
-inline constexpr uint32_t kChunkClusters = fourCC("CLUS");     ///< ClusterRecord[]
-inline constexpr uint32_t kChunkPageTable = fourCC("PGTB");    ///< PageRecord[]
-inline constexpr uint32_t kChunkPageParents = fourCC("PGPA");  ///< u32[]: pages that a page refines
-inline constexpr uint32_t kChunkPages = fourCC("PAGE");        ///< pages, each aligned to 64 bytes
-inline constexpr uint32_t kChunkSourceMesh = fourCC("SMSH");   ///< mesh `index` as imported
+inline constexpr uint32_t kChunkMeshes = fourCC("MESH");         ///< MeshRecord[]
+inline constexpr uint32_t kChunkLevels = fourCC("LEVL");         ///< LevelRecord[]
+inline constexpr uint32_t kChunkGroups = fourCC("GRUP");         ///< GroupRecord[]
+inline constexpr uint32_t kChunkClusters = fourCC("CLUS");       ///< ClusterRecord[]
+inline constexpr uint32_t kChunkPageTable = fourCC("PGTB");      ///< PageRecord[]
+inline constexpr uint32_t kChunkPageParents = fourCC("PGPA");    ///< u32[]: pages that a page refines
+inline constexpr uint32_t kChunkPages = fourCC("PAGE");          ///< pages, each aligned to 64 bytes
+inline constexpr uint32_t kChunkSourceMesh = fourCC("SMSH");     ///< mesh `index` as imported
 inline constexpr uint32_t kChunkInstanceMeshes = fourCC("IMSH"); ///< u32[]: mesh of each instance
-inline constexpr uint32_t kChunkAuthoredLods = fourCC("ALOD"); ///< AuthoredLodRecord[]
+inline constexpr uint32_t kChunkAuthoredLods = fourCC("ALOD");   ///< AuthoredLodRecord[]
 
 inline constexpr uint32_t kMaxClusterTriangles = 128;
 inline constexpr uint32_t kMaxClusterVertices = 256;
@@ -114,7 +114,7 @@ struct ClusterRecord
     uint16_t cone_back;
     uint16_t vertex_count;
     uint8_t triangle_count;
-    uint8_t reserved;
+    uint8_t uv_density;
     uint16_t page_word;
     uint32_t material;
     uint32_t group;
@@ -259,7 +259,8 @@ HEARTH_RECORD(hearth::formats::ClusterRecord, 48,
                            "the apex: every triangle's plane has it on or behind its front side"),
               HEARTH_FIELD(hearth::formats::ClusterRecord, vertex_count, "1 to 256"),
               HEARTH_FIELD(hearth::formats::ClusterRecord, triangle_count, "1 to 128"),
-              HEARTH_FIELD(hearth::formats::ClusterRecord, reserved, "0"),
+              HEARTH_FIELD(hearth::formats::ClusterRecord, uv_density,
+                           "c: 2^((c - 128) / 8) UV units a metre of object space; 0: it has no UVs"),
               HEARTH_FIELD(hearth::formats::ClusterRecord, page_word,
                            "first word of its data in the decoded page"),
               HEARTH_FIELD(hearth::formats::ClusterRecord, material, "material, or none for the default"),

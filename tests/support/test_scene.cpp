@@ -200,7 +200,6 @@ void TestScene::setVisibility(const Visibility& visibility)
         }
     }
     model_.sealPages();
-    model_.sealImages();
 }
 
 PackView TestScene::build()
@@ -214,6 +213,7 @@ PackView TestScene::build()
 PackView TestScene::assemble()
 {
     model_.meta = R"({"schema":"hearth.meta/1"})";
+    model_.sealImages();
     bytes_ = model_.bytes();
     auto reader = ContainerReader::fromBytes(bytes_.span(), "test");
     HEARTH_ASSERT(reader.ok());

@@ -2,6 +2,7 @@
 #include "cook/clusters/pages/coded_cluster.h"
 
 #include "cook/clusters/core/bounds.h"
+#include "cook/clusters/core/uv_density.h"
 #include "formats/base/assert.h"
 #include "formats/codecs/cluster_bounds.h"
 #include "formats/codecs/visibility_code.h"
@@ -305,6 +306,25 @@ private:
     std::vector<uint32_t> deltas_;  ///< for each vertex and each of these targets
 };
 
+/// Return the code of the cluster's density: of two UV sets that of the one with fewer UV units a metre, which
+/// wants finer mips. 0 without UVs or area.
+uint8_t findUvDensity(const PreparedMesh& mesh, std::span<const VertexId> vertices,
+                      std::span<const uint8_t> indices, std::span<const Float3> places)
+{
+    uint8_t code = 0;
+    std::vector<Float2> uvs(indices.size());
+    for (uint32_t set = 0; set < kUvSets; ++set)
+    {
+        if ((mesh.attributes & kVertexUv0 << set) == 0)
+            continue;
+        for (size_t i = 0; i < indices.size(); ++i)
+            uvs[i] = mesh.vertices.uvs[set][toIndex(vertices[indices[i]])];
+        const uint8_t own = encodeUvDensity(measureUvDensity(places, uvs));
+        code = code == 0 ? own : std::min(code, own);
+    }
+    return code;
+}
+
 } // namespace
 
 uint32_t chooseLayout(const PreparedMesh& mesh, const Config& config)
@@ -342,6 +362,7 @@ CodedCluster codeCluster(const PreparedMesh& mesh, const ClusterStore& store, co
     record.vertex_count =
         static_cast<uint16_t>(vertex_words / vertexWords(clusterVertexLayout(record, layout)));
     record.triangle_count = static_cast<uint8_t>(shape.triangle_count);
+    record.uv_density = findUvDensity(mesh, vertices, indices, places);
     HEARTH_ASSERT(record.vertex_count > 0 && record.vertex_count <= vertices.size());
     HEARTH_ASSERT(record.triangle_count == shape.triangle_count);
     return cluster;

@@ -75,9 +75,11 @@ void PageRequestPass::record(const Device& device, VkCommandBuffer commands, con
     };
     const uint32_t items = scene.group_item_count;
     const uint32_t rigid = scene.deformation == nullptr ? items : scene.deformation->rigid_group_items;
-    ask(pipeline_, scene.frame().page_request_set, {0, rigid});
+    const auto pages = scene.stream->pages().residency().graph().pageCount();
+    const auto default_row = static_cast<uint32_t>(scene.materials.size()) - 1;
+    ask(pipeline_, scene.frame().page_request_set, {0, rigid, pages, default_row});
     if (scene.deformation != nullptr)
-        ask(*deformed_, scene.frame().deformed_page_request_set, {rigid, items - rigid});
+        ask(*deformed_, scene.frame().deformed_page_request_set, {rigid, items - rigid, pages, default_row});
     // the late culling phase overwrites the states that this pass has read; the host reads the requests
     barrier(device, commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_SHADER_WRITE_BIT,
             VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT, VK_ACCESS_HOST_READ_BIT);

@@ -49,8 +49,8 @@ VkExtent3D levelExtent(const Image& image, uint32_t level)
 float pixelsFromRequest(uint32_t request)
 {
     constexpr float kLogarithmError = 0.0861f;
-    constexpr float kBiasOctaves = 64;
-    return static_cast<float>(request) / static_cast<float>(1u << 23) - kBiasOctaves +
+    constexpr auto kOctave = static_cast<float>(1 << shared::kTexelRequestBits);
+    return static_cast<float>(request) / kOctave - static_cast<float>(shared::kTexelRequestOctaves) +
            kLogarithmError;
 }
 

@@ -125,8 +125,8 @@ void createFrame(const formats::PackView& pack, const SceneLayout& layout, const
     uint64_t regions = 1 + WordCopies::countRegions(maxFreshLightWords(pack, options.bricks));
     if (scene.stream != nullptr)
     {
-        f.make(frame.page_requests, "page requests", pack.pages().size(), sizeof(uint32_t), kWorkUsage,
-               MemoryKind::readback);
+        f.make(frame.page_requests, "page requests", pack.pages().size() + pack.materials().size() + 1,
+               sizeof(uint32_t), kWorkUsage, MemoryKind::readback);
         regions += scene.stream->maxCopyRegions();
     }
     f.make(frame.copy_regions, "changes", regions, sizeof(shared::CopyRegion),

@@ -23,4 +23,4 @@ uint clusterOutcome(WorkItem item, uint number)
     return clusterInFrustum(view, instance, state, cluster) ? kOutcomeCone : kOutcomeFrustum;
 }
 
-uint clusterTriangles(WorkItem item, uint number) { return clusters[number].counts & 0xFFFFu; }
+uint clusterTriangles(WorkItem item, uint number) { return clusters[number].counts & 0xFFu; }

@@ -1,5 +1,6 @@
 // Page requests, shared by the passes over rigid and over deformed instances. One workgroup per work item,
 // one thread per group. Finds the pages that the frame needs, resident or not, with a priority for each.
+// The textures of the clusters that the cut draws are requested as well, for each material with the finest mips.
 // Requests depend on the view alone, not on the pages loaded or the clusters drawn so far.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/bindings.h"
@@ -17,15 +18,27 @@ layout(set = kSetTables, binding = kTablePageRequests, std430) buffer Requests {
 layout(push_constant) uniform Push { PageRequestPush push; };
 
 // transformedGroup: the group with the bounds that the cut test uses. inFrustum: true if the cluster passes
-// the frustum test.
+// the frustum test. nearestDistance: from the eye to the cluster, metres.
 Group transformedGroup(uint instance, uint group);
 bool inFrustum(uint instance, uint cluster);
+float nearestDistance(uint instance, uint cluster);
 
 // Request the set of pages of a group. The first page of a set represents the whole set.
 void requestPage(uint group, uint request)
 {
     if (request != 0u)
         atomicMax(requests[groups[group - groups[group].set_offset].page], request);
+}
+
+// Request the mips of the cluster's material.
+void requestTexels(uint instance, uint cluster)
+{
+    uint code = uvDensityCode(clusters[cluster]);
+    uint material = clusters[cluster].material;
+    uint row = material == kNoGroup ? push.default_material : material;
+    if (code != 0u)
+        atomicMax(requests[push.first_material + row],
+                  texelRequest(view, instances[instance], code, nearestDistance(instance, cluster)));
 }
 
 void main()
@@ -51,8 +64,13 @@ void main()
         seen = true;
         // the finer group is requested even outside of the frustum, or else the coarser cluster would stay
         uint refined = clusters[c].refined_group;
+        uint refined_request = 0u;
         if (refined != kNoGroup)
-            requestPage(refined, groupPriority(view, instances[item.instance], transformedGroup(item.instance, refined)));
+            refined_request = groupPriority(view, instances[item.instance], transformedGroup(item.instance, refined));
+        if (refined_request != 0u)
+            requestPage(refined, refined_request);
+        else // the cut draws it, once all is there
+            requestTexels(item.instance, c);
     }
     if (seen)
         requestPage(own, request);

@@ -17,3 +17,10 @@ bool inFrustum(uint instance, uint cluster)
     return deformedInFrustum(view, instances[instance],
                              boxInPose(instances[instance], pose, loadDeformedCluster(pose, cluster)));
 }
+
+float nearestDistance(uint instance, uint cluster)
+{
+    Pose pose = loadPose(readPoseRow(instance));
+    return deformedDistance(view, instances[instance],
+                            boxInPose(instances[instance], pose, loadDeformedCluster(pose, cluster)));
+}

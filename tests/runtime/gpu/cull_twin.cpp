@@ -235,7 +235,7 @@ private:
         ++counts.clusters[outcome];
         const uint64_t triangles =
             (uint64_t{counts.triangles_high[outcome]} << 32 | counts.triangles_low[outcome]) +
-            (cluster.counts & 0xFFFF);
+            (cluster.counts & 0xFF);
         counts.triangles_low[outcome] = static_cast<uint32_t>(triangles);
         counts.triangles_high[outcome] = static_cast<uint32_t>(triangles >> 32);
     }
@@ -354,7 +354,9 @@ std::vector<uint32_t> makeRequestTwin(const formats::PackView& pack, const gpu::
     const auto clusters = recordsAs<Cluster>(pack.clusters());
     const auto groups = recordsAs<Group>(pack.groups());
     const PoseTable poses(layout);
-    std::vector<uint32_t> requests(pack.pages().size(), 0);
+    const auto pages = static_cast<uint32_t>(pack.pages().size());
+    const auto materials = static_cast<uint32_t>(pack.materials().size());
+    std::vector<uint32_t> requests(pages + materials + 1, 0);
     for (uint32_t i = 0; i < layout.instances.size(); ++i)
     {
         const Instance& instance = layout.instances[i];
@@ -375,14 +377,34 @@ std::vector<uint32_t> makeRequestTwin(const formats::PackView& pack, const gpu::
             uint32_t& request = requests[groups[group - groups[group].set_offset].page];
             request = std::max(request, groupPriority(view, instance, groupInPose(groups[group], pose)));
         };
+        const auto distance = [&](uint32_t c)
+        {
+            return deformed
+                       ? deformedDistance(view, instance, poses.box(instance, pose, poses.cluster(pose, c)))
+                       : boxDistance(view, instance, clusterBoxMin(clusters[c], state.grid_step),
+                                     clusterBoxMax(clusters[c], state.grid_step));
+        };
+        const auto refines = [&](uint32_t group)
+        {
+            return groups[group].error > kMaxFiniteError ||
+                   groupPriority(view, instance, groupInPose(groups[group], pose)) != 0;
+        };
         const formats::Range range = pack.meshes()[pack.instances()[i].mesh].clusters;
         for (uint32_t c = range.first; c < range.first + range.count; ++c)
-            if (in_frustum(c))
-            {
-                ask(clusters[c].group);
-                if (clusters[c].refined_group != kNoGroup)
-                    ask(clusters[c].refined_group);
-            }
+        {
+            if (!in_frustum(c))
+                continue;
+            const uint32_t refined = clusters[c].refined_group;
+            ask(clusters[c].group);
+            if (refined != kNoGroup)
+                ask(refined);
+            if (!refines(clusters[c].group) || (refined != kNoGroup && refines(refined)))
+                continue;
+            const uint32_t row = clusters[c].material == kNoGroup ? materials : clusters[c].material;
+            uint32_t& request = requests[pages + row];
+            request =
+                std::max(request, texelRequest(view, instance, uvDensityCode(clusters[c]), distance(c)));
+        }
     }
     return requests;
 }

@@ -140,7 +140,8 @@ TEST_F(DeformationTwinTest, aStreamedSceneAsksAsItsTwinAndEndsAsTheWholeImage)
             ++serial;
             image = draw(*streamed, camera, options);
         }
-        const auto requests = read<uint32_t>(streamed->frame().page_requests, test.pack().pages().size());
+        const auto requests = read<uint32_t>(streamed->frame().page_requests,
+                                             test.pack().pages().size() + test.pack().materials().size() + 1);
         EXPECT_EQ(requests, makeRequestTwin(test.pack(), *layout, makeView(*streamed, camera, options)));
         for (const uint32_t request : requests)
             requested += request != 0 ? 1u : 0u;

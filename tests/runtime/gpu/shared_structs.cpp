@@ -79,7 +79,7 @@ std::vector<SharedStruct> pushStructs()
         HEARTH_STRUCT(EmitVisiblePush, item_count, slot_capacity),
         HEARTH_STRUCT(EmitDrawsPush, bin_count, item_count, block_count, slot_capacity, phase),
         HEARTH_STRUCT(WordCopyPush, first_region),
-        HEARTH_STRUCT(PageRequestPush, first_item, item_count),
+        HEARTH_STRUCT(PageRequestPush, first_item, item_count, first_material, default_material),
         HEARTH_STRUCT(CullStatisticsPush, first_item, item_count, instance_count),
         HEARTH_STRUCT(SkinningPlanPush, bin_count, first_bin, phase),
         HEARTH_STRUCT(PyramidPush, width, height),

@@ -336,7 +336,7 @@ TEST_F(StreamTest, occlusionCullingChangesNoImageOfAStreamedScene)
 TEST_F(StreamTest, requestsEqualTheirTwinBitForBit)
 {
     stream(allBytes(*pack_));
-    uint32_t requested = 0, absent = 0;
+    uint32_t requested = 0, absent = 0, textured = 0;
     for (int i = 0; i < 40; ++i)
     {
         const Camera camera = randomCamera(random_, 4);
@@ -350,10 +350,13 @@ TEST_F(StreamTest, requestsEqualTheirTwinBitForBit)
                                   .flags = flags,
                                   .lod_curve = curve};
         frame(camera, options);
-        const auto requests = read<uint32_t>(streamed_->frame().page_requests, pack_->pages().size());
+        const auto requests = read<uint32_t>(streamed_->frame().page_requests,
+                                             pack_->pages().size() + pack_->materials().size() + 1);
         const auto twin = makeRequestTwin(*pack_, layout_, makeView(*streamed_, camera, scaled(options)));
         EXPECT_EQ(requests, twin);
-        for (uint32_t page = 0; page < requests.size(); ++page)
+        textured += std::count_if(requests.begin() + static_cast<ptrdiff_t>(pack_->pages().size()),
+                                  requests.end(), [](uint32_t request) { return request != 0; });
+        for (uint32_t page = 0; page < pack_->pages().size(); ++page)
         {
             requested += requests[page] != 0 ? 1u : 0u;
             absent +=
@@ -362,6 +365,7 @@ TEST_F(StreamTest, requestsEqualTheirTwinBitForBit)
     }
     EXPECT_GT(requested, 200u);
     EXPECT_GT(absent, 20u);
+    EXPECT_GT(textured, 20u);
 }
 
 TEST_F(StreamTest, aPageThatCannotBeReadLeavesACoarserImageAndOneReport)
@@ -392,8 +396,8 @@ TEST_F(StreamTest, aBudgetBelowThePinnedPagesIsRefused)
     Status status = host().run(
         [&](VkCommandBuffer commands) -> Status
         {
-            auto scene = renderer().upload(
-                *pack_, commands, {.memory_budget = 16, .stream = {.read = disk_->reader(random_)}});
+            auto scene = renderer().upload(*pack_, commands,
+                                           {.memory_budget = 16, .stream = {.read = disk_->reader(random_)}});
             EXPECT_FALSE(scene.ok());
             return scene.ok() ? success() : Status(scene.error());
         });
