@@ -80,7 +80,7 @@ HEARTH_API hearth_result hearth_pack_open_memory(const void* bytes, size_t size,
  * errors: USAGE, FILE_MALFORMED, OUT_OF_MEMORY. */
 HEARTH_API hearth_result hearth_pack_check(const hearth_pack* pack, char* message, size_t message_size);
 
-/* Check a page and decode it into `destination`, which has at least the page's size. Writes `destination`
+/* Check a page, of geometry or of a texture, and decode it into `destination`, which has at least the page's size. Writes `destination`
  * from front to back and does not read it. For hearth_read_page_callback; on any thread.
  * errors: USAGE, OUT_OF_MEMORY; FILE_MALFORMED if the page contradicts its pack: `destination` is not
  * written. */
@@ -229,7 +229,7 @@ typedef struct hearth_page_read
     unsigned char internal[16];
 } hearth_page_read;
 
-/* Callback that starts to read a page: write its `size` decoded bytes to `destination`, as
+/* Callback that starts to read a page, of geometry or of a texture: write its `size` decoded bytes to `destination`, as
  * hearth_pack_read_page does, then call hearth_read_done. May do so at once or later, on any thread, reads in
  * any order. Called by hearth_scene_begin_frame. */
 typedef void (*hearth_read_page_callback)(void* user, uint32_t page, void* destination, size_t size,
@@ -276,8 +276,8 @@ typedef struct hearth_scene_options
     /* Largest number of clusters of a frame, 1 to 33554430, 8 bytes each; more are counted and not drawn
      * (hearth_frame_counters). */
     uint32_t max_visible_clusters;
-    /* Bytes of geometry on the device; `read` streams pages on demand. 0: all geometry is resident, at most
-     * 512 MiB. */
+    /* Bytes of geometry and textures on the device; `read` streams pages and mips on demand. 0: all is
+     * resident, at most 512 MiB of geometry. */
     uint64_t memory_budget;
     /* Needed with a budget. Before the scene is destroyed all reads must have ended or been cancelled. */
     hearth_read_page_callback read;
@@ -361,11 +361,18 @@ typedef struct hearth_stream_counters
     uint32_t failures;        /* so far */
     uint32_t failed_page_count;
     const uint32_t* failed_pages; /* failures that the last begin_frame saw, each once; until the next one */
+    /* Textures, 0 if none are streamed: the share of the budget, and what they take of it. */
+    uint64_t texture_budget_bytes;
+    uint64_t texture_bytes_in_use;
+    uint64_t texture_bytes_on_device; /* at most texture_bytes_in_use */
+    uint64_t texture_bytes_streamed;  /* so far */
+    uint32_t texture_failures;        /* mips that could not be read, so far */
+    float texture_error_scale;        /* pixels a texel that are asked for: above 1 if the share is too small */
 } hearth_stream_counters;
 
 #define HEARTH_STREAM_COUNTERS_INIT                                                                          \
     {                                                                                                        \
-        sizeof(hearth_stream_counters), 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, NULL                                   \
+        sizeof(hearth_stream_counters), 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, NULL, 0, 0, 0, 0, 0, 1                 \
     }
 
 /* errors: USAGE, also if the scene has no budget. */

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/c/shadows.h"
 #include "runtime/gpu/scene/scene_shadows.h"
+#include "runtime/gpu/scene/scene_textures.h"
 
 #include <array>
 #include <bit>
@@ -222,7 +223,18 @@ hearth_result hearth_scene_get_stream_counters(const hearth_scene* scene, hearth
                                  .reads_in_flight = stream.pages().readsInFlight(),
                                  .failures = now.failures,
                                  .failed_page_count = static_cast<uint32_t>(stream.failed().size()),
-                                 .failed_pages = stream.failed().data()};
+                                 .failed_pages = stream.failed().data(),
+                                 .texture_error_scale = 1};
+                    if (stream.textures() != nullptr)
+                    {
+                        const gpu::TextureStatistics textures = stream.textures()->statistics();
+                        counters->texture_budget_bytes = textures.budget_bytes;
+                        counters->texture_bytes_in_use = textures.bytes_in_use;
+                        counters->texture_bytes_on_device = textures.bytes_on_device;
+                        counters->texture_bytes_streamed = textures.bytes_streamed;
+                        counters->texture_failures = textures.failures;
+                        counters->texture_error_scale = textures.error_scale;
+                    }
                     return success();
                 });
 }

@@ -137,12 +137,27 @@ void TextureStream::endLoads(uint64_t completed_serial)
     std::erase_if(loads_, isEnded);
 }
 
-void TextureStream::request(const TextureUse& use, float pixels_log2)
+template <typename Function>
+void TextureStream::forEachWanted(const TextureUse& use, float pixels_log2, const Function& function) const
 {
     const uint32_t count = graph_.mipCount(use.image);
     for (uint32_t mip = 0; mip + 1 < count; ++mip)
         if (const float priority = mipPriority(use, pixels_log2, mip) / residency_.errorScale(); priority > 1)
-            residency_.request(graph_.node({use.image, mip}), priority);
+            function(graph_.node({use.image, mip}), priority);
+}
+
+void TextureStream::request(const TextureUse& use, float pixels_log2)
+{
+    forEachWanted(use, pixels_log2,
+                  [&](uint32_t node, float priority) { residency_.request(node, priority); });
+}
+
+uint32_t TextureStream::countMissing(const TextureUse& use, float pixels_log2) const
+{
+    uint32_t missing = 0;
+    forEachWanted(use, pixels_log2,
+                  [&](uint32_t node, float) { missing += residency_.isResident(node) ? 0u : 1u; });
+    return missing;
 }
 
 void TextureStream::schedule(uint64_t feedback_serial)

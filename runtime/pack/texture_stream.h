@@ -69,6 +69,9 @@ public:
     /// pixels_log2  as mipPriority
     void request(const TextureUse& use, float pixels_log2);
 
+    /// Return how many mips that a view wants of an image are not resident; pixels_log2 as above.
+    uint32_t countMissing(const TextureUse& use, float pixels_log2) const;
+
     /// End a round of requests, as PageStream::schedule does.
     void schedule(uint64_t feedback_serial);
 
@@ -102,6 +105,9 @@ private:
                   const TextureStreamOptions& options, std::span<std::byte> staging);
     void freeStaging(uint64_t completed_serial);
     void takeCompletions();
+    /// Call function(node, priority) for the mips that a view wants of an image.
+    template <typename Function>
+    void forEachWanted(const TextureUse& use, float pixels_log2, const Function& function) const;
     std::vector<Load>::iterator findLoad(uint32_t node);
     void endLoads(uint64_t completed_serial);
     uint64_t lag(uint64_t completed_serial);

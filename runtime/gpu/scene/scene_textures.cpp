@@ -182,6 +182,16 @@ void SceneTextures::request(std::span<const uint32_t> materials)
                 stream_.request(use, pixelsFromRequest(materials[row]));
 }
 
+uint32_t SceneTextures::countMissing(std::span<const uint32_t> materials) const
+{
+    uint32_t missing = 0;
+    for (size_t row = 0; row < uses_.size(); ++row)
+        if (materials[row] != 0)
+            for (const pack::TextureUse& use : uses_[row])
+                missing += stream_.countMissing(use, pixelsFromRequest(materials[row]));
+    return missing;
+}
+
 void SceneTextures::record(VkCommandBuffer commands, const Scene& scene)
 {
     outdated_.resize(scene.frames.size(), std::vector<bool>(uses_.size(), false));

@@ -58,6 +58,8 @@ public:
     void beginFrame(uint64_t serial, uint64_t completed_serial);
     /// Request the mips for the feedback of materials: shared::texelRequest, 0 if a material is not seen.
     void request(std::span<const uint32_t> materials);
+    /// Return how many mips that such feedback wants are not resident, counted for each use of an image.
+    uint32_t countMissing(std::span<const uint32_t> materials) const;
     void schedule(uint64_t feedback_serial) { stream_.schedule(feedback_serial); }
 
     /// Record the changes of the frame that was begun, outside of render passes, and point the materials' sets

@@ -329,29 +329,24 @@ struct MemoryShares
     uint64_t geometry, textures;
 };
 
-/// Divide the budget: both get what is always resident, and of the rest shares as large as what they can use.
+/// Divide the budget: both get what is always resident, and halves of the rest; what one cannot use, the other
+/// gets.
 MemoryShares splitBudget(uint64_t budget, const pack::PageGraph& pages, const TextureSizes& sizes)
 {
     const pack::TextureGraph textures(sizes);
+    const pack::PageGraph& nodes = textures.nodes();
     // pages take slots as large as the largest
-    uint32_t slot_bytes = 0;
+    uint64_t slot_bytes = 0, texture_use = 0;
     for (uint32_t page = 0; page < pages.pageCount(); ++page)
-        slot_bytes = std::max(slot_bytes, pages.sizeBytes(page));
-    uint64_t texture_bytes = 0;
-    for (uint32_t node = 0; node < textures.nodes().pageCount(); ++node)
-        if (!textures.nodes().isPinned(node))
-            texture_bytes += textures.nodes().sizeBytes(node);
-    const uint64_t pinned = pages.pinnedBytes() + textures.nodes().pinnedBytes();
+        slot_bytes = std::max<uint64_t>(slot_bytes, pages.sizeBytes(page));
+    for (uint32_t node = 0; node < nodes.pageCount(); ++node)
+        texture_use += nodes.isPinned(node) ? 0 : nodes.sizeBytes(node);
+    const uint64_t geometry_use = (pages.pageCount() - pages.pinned().size()) * slot_bytes;
+    const uint64_t pinned = pages.pinnedBytes() + nodes.pinnedBytes();
     const uint64_t rest = budget - std::min(budget, pinned);
-    const double geometry_use =
-        static_cast<double>(pages.pageCount() - pages.pinned().size()) * static_cast<double>(slot_bytes);
-    const auto texture_use = static_cast<double>(texture_bytes);
-    if (textures.nodes().pageCount() == 0)
-        return {budget, 0};
-    const auto texture_share = static_cast<uint64_t>(static_cast<double>(rest) * texture_use /
-                                                     std::max(geometry_use + texture_use, 1.0));
-    const uint64_t share = textures.nodes().pinnedBytes() + texture_share;
-    return {budget - std::min(budget, share), share};
+    const uint64_t unused = rest - std::min(rest, geometry_use);
+    const uint64_t textures_share = nodes.pinnedBytes() + std::min(texture_use, std::max(rest / 2, unused));
+    return {budget - std::min(budget, textures_share), textures_share};
 }
 
 /// Mark the materials that are used by meshes with sky visibility.

@@ -19,7 +19,7 @@ std::string formatMembers(const StreamCounts& counts)
     { text.append(text.empty() ? "\"" : ",\"").append(name).append("\":").append(value); };
     char scale[32];
     std::snprintf(scale, sizeof(scale), "%.3f", double{s.error_scale});
-    add("converged", counts.pages_missing == 0 ? "true" : "false");
+    add("converged", counts.pages_missing + counts.mips_missing == 0 ? "true" : "false");
     add("frame", std::to_string(counts.frame));
     add("budget_bytes", std::to_string(s.budget_bytes));
     add("bytes_in_use", std::to_string(s.bytes_in_use));
@@ -30,6 +30,17 @@ std::string formatMembers(const StreamCounts& counts)
     add("pages_missing", std::to_string(counts.pages_missing));
     add("failures", std::to_string(s.failures));
     add("error_scale", scale);
+    if (!counts.textures)
+        return text;
+    const gpu::TextureStatistics& t = *counts.textures;
+    std::snprintf(scale, sizeof(scale), "%.3f", double{t.error_scale});
+    add("texture_budget_bytes", std::to_string(t.budget_bytes));
+    add("texture_bytes_in_use", std::to_string(t.bytes_in_use));
+    add("texture_bytes_on_device", std::to_string(t.bytes_on_device));
+    add("texture_bytes_streamed", std::to_string(t.bytes_streamed));
+    add("texture_failures", std::to_string(t.failures));
+    add("mips_missing", std::to_string(counts.mips_missing));
+    add("texture_error_scale", scale);
     return text;
 }
 
@@ -41,11 +52,16 @@ Result<StreamCounts> countStreaming(VulkanHost& host, const gpu::Renderer& rende
     const pack::PageStream& pages = scene.stream->pages();
     HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes,
                             host.read(renderer.device(), scene.frame().page_requests));
-    std::vector<uint32_t> requests(pages.residency().graph().pageCount());
-    if (!requests.empty())
-        std::memcpy(requests.data(), bytes.data(), requests.size() * sizeof(uint32_t));
+    const uint32_t page_count = pages.residency().graph().pageCount();
+    std::vector<uint32_t> requests(page_count + scene.materials.size());
+    std::memcpy(requests.data(), bytes.data(), requests.size() * sizeof(uint32_t));
     StreamCounts counts{.statistics = pages.statistics(), .frame = serial};
-    for (uint32_t page = 0; page < requests.size(); ++page)
+    if (scene.textures != nullptr)
+    {
+        counts.textures = scene.textures->statistics();
+        counts.mips_missing = scene.textures->countMissing(std::span(requests).subspan(page_count));
+    }
+    for (uint32_t page = 0; page < page_count; ++page)
         if (requests[page] != 0)
         {
             ++counts.pages_wanted;

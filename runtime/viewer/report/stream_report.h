@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "runtime/gpu/scene/scene_textures.h"
 #include "runtime/viewer/vulkan_host.h"
 
+#include <optional>
 #include <span>
 
 namespace hearth::viewer
@@ -15,6 +17,8 @@ struct StreamCounts
     uint64_t frame = 0;         ///< serial of the frame: frames that only prefetched count
     uint32_t pages_wanted = 0;  ///< by this frame
     uint32_t pages_missing = 0; ///< of these, pages that were not resident: 0 in a frame that has converged
+    std::optional<gpu::TextureStatistics> textures{}; ///< if textures are streamed
+    uint32_t mips_missing = 0;                        ///< as pages_missing
 };
 
 /// Count for the last frame of a streamed scene, which has completed. errors: device_failed.

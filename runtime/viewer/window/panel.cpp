@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/window/panel.h"
 
+#include "runtime/gpu/scene/scene_textures.h"
+
 #include <algorithm>
 #include <imgui.h>
 
@@ -269,7 +271,7 @@ void Panel::buildStreaming(ViewSettings& settings, const PanelData& facts)
 {
     if (!ImGui::CollapsingHeader("Memory", ImGuiTreeNodeFlags_DefaultOpen))
         return;
-    bool changed = ImGui::Checkbox("Stream the geometry", &streamed_);
+    bool changed = ImGui::Checkbox("Stream geometry and textures", &streamed_);
     if (streamed_)
     {
         ImGui::SliderInt("Budget", &budget_mib_, 1, max_budget_mib_, "%d MiB",
@@ -290,6 +292,14 @@ void Panel::buildStreaming(ViewSettings& settings, const PanelData& facts)
                 mib(s.bytes_streamed));
     ImGui::Text("error scale %.2f, %u reads under way, %u failures", static_cast<double>(s.error_scale),
                 stream->pages().readsInFlight(), s.failures);
+    if (stream->textures() == nullptr)
+        return;
+    const gpu::TextureStatistics t = stream->textures()->statistics();
+    ImGui::Text("textures: in use %.1f of %.1f MiB, on the device %.1f MiB, streamed %.1f MiB",
+                mib(t.bytes_in_use), mib(t.budget_bytes), mib(t.bytes_on_device), mib(t.bytes_streamed));
+    ImGui::Text("texels a pixel %.2f, %u reads under way, %u failures",
+                1 / static_cast<double>(t.error_scale), stream->textures()->stream().readsInFlight(),
+                t.failures);
 }
 
 void Panel::buildCulling(ViewSettings& settings, const PanelData& facts)
