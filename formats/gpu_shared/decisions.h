@@ -77,8 +77,8 @@ struct EyeBox
     Float3 half_size; ///< with a margin for rounding
 };
 
-/// Return the box along the world axes around a box of an instance. Exact for any affine matrix: the half extents
-/// become |A| h.
+/// Return the box along the world axes around a box of an instance. Exact for any affine matrix: the half
+/// extents become |A| h.
 HEARTH_FUNCTION EyeBox toEyeBox(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance, Float3 box_min,
                                 Float3 box_max)
 {
@@ -358,9 +358,9 @@ HEARTH_CONSTANT int kTexelRequestBits = 23;
 /// Octaves that texelRequest adds, so that it is positive.
 HEARTH_CONSTANT int kTexelRequestOctaves = 64;
 
-/// Return the fineness that a view wants of the textures of a cluster: log2 of the pixels that a UV unit covers
-/// where the cluster is nearest. Bits of floats take the place of logarithms, whose last bits differ between
-/// devices: they are too small by up to 0.0861 octaves, so the result is off by so much either way.
+/// Return the fineness that a view wants of the textures of a cluster: log2 of the pixels that a UV unit
+/// covers where the cluster is nearest. Bits of floats take the place of logarithms, whose last bits differ
+/// between devices: they are too small by up to 0.0861 octaves, so the result is off by so much either way.
 ///
 /// density_code  ClusterRecord::uv_density
 /// distance      of the nearest point, metres

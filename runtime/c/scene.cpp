@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/c/shadows.h"
 #include "runtime/gpu/scene/scene_shadows.h"
-#include "runtime/gpu/scene/scene_textures.h"
+#include "runtime/gpu/textures/streamed_textures.h"
 
 #include <array>
 #include <bit>

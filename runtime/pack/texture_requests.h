@@ -18,8 +18,8 @@ struct TextureUse
 };
 
 /// Return how a texture reference reads its image. Where the UV transform or the image has more texels along
-/// one axis, the fewer count, but an eighth of the more at least: anisotropic samplers go by the axis that has
-/// fewer texels a pixel, and take eight along the other.
+/// one axis, the fewer count, but an eighth of the more at least: anisotropic samplers go by the axis that
+/// has fewer texels a pixel, and take eight along the other.
 TextureUse makeTextureUse(const formats::PackView& view, const formats::TextureRef& texture);
 
 /// Return the priority of a mip: pixels that a texel of the next coarser mip covers. Above 1 the view is

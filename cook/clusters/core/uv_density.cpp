@@ -27,8 +27,8 @@ double dotDouble(Float3 a, Float3 b)
     return double{a.x} * double{b.x} + double{a.y} * double{b.y} + double{a.z} * double{b.z};
 }
 
-/// The squares of the singular values are the eigenvalues of M G^-1 M^T, where the columns of M are the edges in
-/// UV and G has the inner products of the edges in space.
+/// The squares of the singular values are the eigenvalues of M G^-1 M^T, where the columns of M are the edges
+/// in UV and G has the inner products of the edges in space.
 TriangleDensity measureTriangle(const Float3* p, const Float2* uv)
 {
     const Float3 e = p[1] - p[0], f = p[2] - p[0];

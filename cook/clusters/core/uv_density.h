@@ -15,8 +15,8 @@ namespace hearth::clusters
 uint8_t encodeUvDensity(double density);
 
 /// Return the density that all but a twentieth of the area exceeds, in UV units a metre: on a triangle the
-/// smaller singular value of the map from surface to UV, but an eighth of the greater at least, as samplers of
-/// eightfold anisotropy choose mips. 0 if no triangle has an area.
+/// smaller singular value of the map from surface to UV, but an eighth of the greater at least, as samplers
+/// of eightfold anisotropy choose mips. 0 if no triangle has an area.
 ///
 /// places  three corners of each triangle
 /// uvs     of the corners

@@ -306,8 +306,8 @@ private:
     std::vector<uint32_t> deltas_;  ///< for each vertex and each of these targets
 };
 
-/// Return the code of the cluster's density: of two UV sets that of the one with fewer UV units a metre, which
-/// wants finer mips. 0 without UVs or area.
+/// Return the code of the cluster's density: of two UV sets that of the one with fewer UV units a metre,
+/// which wants finer mips. 0 without UVs or area.
 uint8_t findUvDensity(const PreparedMesh& mesh, std::span<const VertexId> vertices,
                       std::span<const uint8_t> indices, std::span<const Float3> places)
 {

@@ -3,7 +3,7 @@
 
 #include "formats/base/atomic_file.h"
 #include "formats/base/nearest_match.h"
-#include "formats/texels/decode_image.h"
+#include "formats/pack/decode_image.h"
 #include "formats/texels/swizzle.h"
 #include "pipelines/command/inspect/open_pack.h"
 #include "pipelines/texture_files/ktx2_writer.h"

@@ -2,7 +2,7 @@
 #include "runtime/gpu/passes/frame_update.h"
 
 #include "runtime/gpu/scene/scene_shadows.h"
-#include "runtime/gpu/scene/scene_textures.h"
+#include "runtime/gpu/textures/streamed_textures.h"
 
 #include <cstring>
 
@@ -31,7 +31,7 @@ const SceneFrame& beginSceneFrame(const Scene& scene)
     return frame;
 }
 
-/// Record the copies of streamed pages and of the flags of their groups.
+/// Record the copies of streamed pages, of the flags of their groups, and of textures.
 void recordStream(const Device& device, VkCommandBuffer commands, const Scene& scene,
                   const WordCopyPass& copy_words, WordCopies& copies)
 {
@@ -39,8 +39,15 @@ void recordStream(const Device& device, VkCommandBuffer commands, const Scene& s
     const SceneStream::Copies ranges = scene.stream->takeChanges(scene.buffers, scene.tables->frame, copies);
     for (size_t i = 0; i < ranges.size(); ++i)
         copy_words.record(device, commands, frame.stream_copy_sets[i], ranges[i]);
-    if (scene.textures != nullptr)
-        scene.textures->record(commands, scene);
+    if (scene.textures == nullptr)
+        return;
+    const uint32_t number = scene.tables->frame;
+    for (const uint32_t row : scene.textures->record(commands, number))
+    {
+        writeMaterialTextures(device, scene, row, scene.materials[row].sets[number]);
+        if (scene.joined_sets != nullptr)
+            scene.joined_sets->setMaterial(device, number, row, scene.materials[row].sets[number]);
+    }
 }
 
 } // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/scene/scene.h"
 #include "runtime/gpu/scene/scene_shading.h"
-#include "runtime/gpu/scene/scene_textures.h"
+#include "runtime/gpu/textures/streamed_textures.h"
 #include "runtime/gpu/scene/texture_upload.h"
 
 #include <algorithm>

@@ -57,7 +57,7 @@ struct SceneOptions
 };
 
 class SceneShadows;
-class SceneTextures;
+class StreamedTextures;
 
 /// Buffers of a scene that all frames share; the element types are in formats/gpu_shared.
 struct SceneBuffers
@@ -136,7 +136,7 @@ struct Scene
     std::unique_ptr<SceneTables> tables;
     std::vector<SceneFrame> frames; ///< one for each frame in flight
     const SceneFrame& frame() const { return frames[tables->frame]; }
-    std::unique_ptr<SceneTextures> textures; ///< scenes with streamed textures only
+    std::unique_ptr<StreamedTextures> textures; ///< scenes with streamed textures only
     /// Per image of the pack, empty if no material uses it or it is streamed; then one white texel.
     std::vector<Image> images;
     bool decodes_textures = false; ///< as SceneOptions::decode_textures

@@ -3,7 +3,7 @@
 
 #include "formats/gpu_shared/decisions.h"
 #include "runtime/gpu/scene/scene.h"
-#include "runtime/gpu/scene/scene_textures.h"
+#include "runtime/gpu/textures/streamed_textures.h"
 
 #include <algorithm>
 #include <bit>

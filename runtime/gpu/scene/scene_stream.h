@@ -15,7 +15,7 @@
 namespace hearth::gpu
 {
 
-class SceneTextures;
+class StreamedTextures;
 struct SceneBuffers;
 struct SceneFrame;
 
@@ -46,7 +46,7 @@ public:
     void setFrames(std::span<const SceneFrame> frames);
 
     /// Stream textures as well: they outlive the stream.
-    void setTextures(SceneTextures& textures) { textures_ = &textures; }
+    void setTextures(StreamedTextures& textures) { textures_ = &textures; }
 
     /// Begin frame `serial`: takes the pages that were read, handles the requests of completed frames, starts
     /// reads. The frame must then be recorded and submitted before the next begins.
@@ -75,7 +75,7 @@ public:
     /// Return the bytes of staging memory, and of streamed textures.
     VkDeviceSize allocatedBytes() const;
 
-    SceneTextures* textures() const { return textures_; } ///< null: none are streamed
+    StreamedTextures* textures() const { return textures_; } ///< null: none are streamed
 
     /// Decoded pages on their way into the pool.
     const Buffer& staging() const { return memory_.staging; }
@@ -130,7 +130,7 @@ private:
     Memory memory_;
     std::vector<RequestReadback> feedback_;
     pack::PageStream pages_;
-    SceneTextures* textures_ = nullptr;
+    StreamedTextures* textures_ = nullptr;
     std::vector<uint32_t> material_requests_; ///< of the round: for each row, the greatest
     pack::StreamChanges changes_{};
     uint64_t serial_ = 0;

@@ -4,7 +4,8 @@
 #include "runtime/gpu/scene/scene_shading.h"
 #include "runtime/gpu/scene/scene_shadows.h"
 #include "runtime/gpu/scene/scene_tables.h"
-#include "runtime/gpu/scene/scene_textures.h"
+#include "runtime/gpu/scene/texture_upload.h"
+#include "runtime/gpu/textures/streamed_textures.h"
 #include "runtime/pack/cut.h"
 #include "runtime/pack/scene_boxes.h"
 
@@ -324,13 +325,28 @@ std::unique_ptr<SceneDeformation> makeDeformation(const Device& device, const De
     return deformation;
 }
 
+/// Return for each material how it reads the images that are streamed.
+std::vector<std::vector<pack::TextureUse>> listTextureUses(const formats::PackView& pack,
+                                                           const TextureSizes& sizes)
+{
+    std::vector<std::vector<pack::TextureUse>> uses;
+    for (const LayeredMaterial& material : readMaterials(pack))
+    {
+        uses.emplace_back();
+        for (const formats::TextureRef& texture : materialTextures(material))
+            if (texture.image != kInvalidIndex && !sizes[texture.image].empty())
+                uses.back().push_back(pack::makeTextureUse(pack, texture));
+    }
+    return uses;
+}
+
 struct MemoryShares
 {
     uint64_t geometry, textures;
 };
 
-/// Divide the budget: both get what is always resident, and halves of the rest; what one cannot use, the other
-/// gets.
+/// Divide the budget: both get what is always resident, and halves of the rest; what one cannot use, the
+/// other gets.
 MemoryShares splitBudget(uint64_t budget, const pack::PageGraph& pages, const TextureSizes& sizes)
 {
     const pack::TextureGraph textures(sizes);
@@ -405,15 +421,22 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
     if (options.memory_budget > 0)
     {
         const pack::PageGraph graph = pack::PageGraph::of(pack);
-        HEARTH_ASSIGN_OR_RETURN(const TextureSizes sizes, measureTextures(device, pack));
+        HEARTH_ASSIGN_OR_RETURN(const TextureSizes sizes,
+                                measureTextures(device, pack, findUsedImages(pack)));
         const MemoryShares shares = splitBudget(options.memory_budget, graph, sizes);
         HEARTH_ASSIGN_OR_RETURN(pool, placePinnedPages(pack, graph, shares.geometry));
         HEARTH_ASSIGN_OR_RETURN(scene->stream,
                                 SceneStream::create(device, pack, graph, pool, options.stream));
         if (shares.textures > 0)
         {
-            HEARTH_ASSIGN_OR_RETURN(
-                scene->textures, SceneTextures::create(device, pack, sizes, shares.textures, options.stream));
+            HEARTH_ASSIGN_OR_RETURN(scene->textures,
+                                    StreamedTextures::create(device, pack,
+                                                             {.sizes = sizes,
+                                                              .uses = listTextureUses(pack, sizes),
+                                                              .frame_count = options.frames_in_flight,
+                                                              .budget_bytes = shares.textures,
+                                                              .max_loads = options.stream.max_loads,
+                                                              .read = options.stream.read}));
             scene->stream->setTextures(*scene->textures);
         }
     }

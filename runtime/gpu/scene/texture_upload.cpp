@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/scene/texture_upload.h"
 
-#include "formats/texels/decode_image.h"
-#include "runtime/gpu/scene/scene_textures.h"
+#include "formats/pack/decode_image.h"
+#include "runtime/gpu/textures/image_layout.h"
+#include "runtime/gpu/textures/streamed_textures.h"
 
 #include <algorithm>
 #include <cstring>
@@ -128,17 +129,6 @@ std::vector<bool> findUsedImages(const formats::PackView& pack)
             if (texture.image != kInvalidIndex)
                 used[texture.image] = true;
     return used;
-}
-
-VkComponentMapping viewComponents(const formats::ImageRecord& record)
-{
-    const auto source = [&](uint32_t c) { return static_cast<VkComponentSwizzle>(record.swizzle[c]); };
-    return {source(0), source(1), source(2), source(3)};
-}
-
-TexelBlock blockSize(const formats::TexelFormatTraits& traits)
-{
-    return {traits.block_bytes, traits.block_width, traits.block_height};
 }
 
 Status uploadTextures(const Device& device, const formats::PackView& pack, Uploader& uploader, Scene& scene)

@@ -13,14 +13,10 @@ namespace hearth::gpu
 /// Return for each image true if a material reads it.
 std::vector<bool> findUsedImages(const formats::PackView& pack);
 
-/// Return how a view maps stored channels to those that shaders read.
-VkComponentMapping viewComponents(const formats::ImageRecord& record);
-
-TexelBlock blockSize(const formats::TexelFormatTraits& traits);
-
-/// Fill Scene::images, but for streamed ones: the images that materials use, and behind them a white one for textures that a
-/// material lacks. Formats that the device cannot sample are decoded: plain ones always, compressed ones if
-/// the scene's options say so; Scene::decoded_textures counts them, and the caller is warned once.
+/// Fill Scene::images, but for streamed ones: the images that materials use, and behind them a white one for
+/// textures that a material lacks. Formats that the device cannot sample are decoded: plain ones always,
+/// compressed ones if the scene's options say so; Scene::decoded_textures counts them, and the caller is
+/// warned once.
 /// errors: texture_format, device_limit; those of PackView::imageData and of memory
 Status uploadTextures(const Device& device, const formats::PackView& pack, Uploader& uploader, Scene& scene);
 

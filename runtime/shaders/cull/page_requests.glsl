@@ -1,8 +1,8 @@
 // Page requests, shared by the passes over rigid and over deformed instances. One workgroup per work item,
-// one thread per group. Finds the pages that the frame needs, resident or not, with a priority for each.
-// The textures of the clusters that the cut draws are requested as well, for each material with the finest mips.
-// Requests depend on the view alone, not on the pages loaded or the clusters drawn so far.
-// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+// one thread per group. Finds the pages that the frame needs, resident or not, with a priority for each. The
+// textures of the clusters that the cut draws are requested as well, for each material with the finest mips.
+// Requests depend on the view alone, not on the pages loaded or the clusters drawn so far. SPDX-License-
+// Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/push_constants.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "runtime/gpu/scene/scene_textures.h"
+#include "runtime/gpu/textures/streamed_textures.h"
 #include "runtime/viewer/vulkan_host.h"
 
 #include <optional>

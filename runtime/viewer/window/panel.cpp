@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/window/panel.h"
 
-#include "runtime/gpu/scene/scene_textures.h"
+#include "runtime/gpu/textures/streamed_textures.h"
 
 #include <algorithm>
 #include <imgui.h>

@@ -156,7 +156,8 @@ TEST_F(Slurm, believesNoLauncher)
     const ProgramEnd list =
         folder.run({hearth, "merge", "demo.plan.json", "-o", "a.hearth", "--missing", "list"});
     EXPECT_EQ(list.exit_code, 75);
-    // clusters, textures, texels, skinning, visibility; the other shard has made the import, to know its neighbours
+    // clusters, textures, texels, skinning, visibility; the other shard has made the import, to know its
+    // neighbours
     EXPECT_EQ(countOccurrences(list.out, "shard 1/2\n"), 5u) << list.out;
     EXPECT_EQ(countOccurrences(list.out, "shard 0/2\n"), 0u) << list.out;
     EXPECT_EQ(folder.run({hearth, "merge", "demo.plan.json", "-o", "a.hearth"}).exit_code, 0);

@@ -2,7 +2,7 @@
 #include "tests/reference/tracer/texture_lookup.h"
 
 #include "formats/base/half.h"
-#include "formats/texels/decode_image.h"
+#include "formats/pack/decode_image.h"
 #include "formats/texels/swizzle.h"
 #include "tests/reference/png_image.h"
 

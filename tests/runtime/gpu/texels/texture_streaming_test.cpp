@@ -1,6 +1,6 @@
 // Streamed textures end as if all mips were resident, within any budget, whatever the device and reads do.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/gpu/scene/scene_textures.h"
+#include "runtime/gpu/textures/streamed_textures.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/shapes.h"
 #include "tests/support/test_scene.h"
@@ -32,7 +32,8 @@ protected:
             for (uint32_t column = 0; column < kColumns; ++column)
                 addQuad(row, column);
         pack_.emplace(test_.build());
-        const auto sizes = gpu::measureTextures(renderer().device(), *pack_);
+        const auto sizes = gpu::measureTextures(renderer().device(), *pack_,
+                                                std::vector<bool>(pack_->images().size(), true));
         ASSERT_TRUE(sizes.ok());
         for (const std::vector<uint64_t>& image : *sizes)
             for (const uint64_t bytes : image)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/texels/decode_image.h"
+#include "formats/pack/decode_image.h"
 
 #include "formats/pack/pack_view.h"
 #include "formats/texels/decode_texels.h"

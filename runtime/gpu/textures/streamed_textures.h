@@ -1,10 +1,8 @@
-// Streamed textures of a scene: images on the device whose finer mips come and go. See runtime/gpu/README.md,
+// Streamed textures: images on the device whose finer mips come and go. See runtime/gpu/README.md,
 // "Streaming".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "runtime/gpu/scene/scene_shading.h"
-#include "runtime/gpu/scene/scene_stream.h"
 #include "runtime/gpu/vulkan/uploader.h"
 #include "runtime/pack/texture_stream.h"
 
@@ -16,15 +14,24 @@
 namespace hearth::gpu
 {
 
-struct Scene;
-
 /// Bytes on the device of the images that can be streamed: [image][mip] of an image that begins with this
-/// mip, as TextureGraph takes them. Images that no material uses, that have no pieces or only a tail, or whose
-/// format the device cannot sample are not streamed: they have none.
+/// mip, as TextureGraph takes them. Images that no material uses, that have no pieces or only a tail, or
+/// whose format the device cannot sample are not streamed: they have none.
 using TextureSizes = std::vector<std::vector<uint64_t>>;
 
 /// Ask the device for the sizes. errors: device_failed.
-Result<TextureSizes> measureTextures(const Device& device, const formats::PackView& pack);
+Result<TextureSizes> measureTextures(const Device& device, const formats::PackView& pack,
+                                     const std::vector<bool>& used);
+
+struct StreamedTextureOptions
+{
+    TextureSizes sizes;                              ///< from measureTextures
+    std::vector<std::vector<pack::TextureUse>> uses; ///< [material row] of images that are streamed
+    uint32_t frame_count = 1;                        ///< in flight
+    uint64_t budget_bytes = 0;
+    uint32_t max_loads = 32;
+    pack::PageReader read; ///< as pack::TextureStreamOptions
+};
 
 struct TextureStatistics
 {
@@ -39,15 +46,13 @@ struct TextureStatistics
 /// Streamed textures of one scene. Each image is on the device with the mips that are resident, in memory of
 /// its own: a finer mip is brought by a new image, into which the coarser ones are copied, and which replaces
 /// the old one in the frame that records the copies.
-class SceneTextures
+class StreamedTextures
 {
 public:
-    /// pack   outlives the textures
-    /// sizes  from measureTextures
+    /// pack  outlives the textures
     /// errors: streaming_budget, device_failed.
-    static Result<std::unique_ptr<SceneTextures>> create(const Device& device, const formats::PackView& pack,
-                                                         const TextureSizes& sizes, uint64_t budget_bytes,
-                                                         const StreamOptions& options);
+    static Result<std::unique_ptr<StreamedTextures>>
+    create(const Device& device, const formats::PackView& pack, StreamedTextureOptions options);
 
     /// Upload the tails. errors: device_failed, and those of PackView::decodePiece.
     Status uploadTails(Uploader& uploader);
@@ -62,9 +67,11 @@ public:
     uint32_t countMissing(std::span<const uint32_t> materials) const;
     void schedule(uint64_t feedback_serial) { stream_.schedule(feedback_serial); }
 
-    /// Record the changes of the frame that was begun, outside of render passes, and point the materials' sets
-    /// of this frame in flight to the images.
-    void record(VkCommandBuffer commands, const Scene& scene);
+    /// Record the changes of the frame that was begun, outside of render passes.
+    /// frame    number among the frames in flight
+    /// returns  the materials whose images have changed since this frame in flight was recorded last: their
+    ///          sets must be written before they are bound; valid until the next call
+    std::span<const uint32_t> record(VkCommandBuffer commands, uint32_t frame);
 
     TextureStatistics statistics() const;
     VkDeviceSize stagingBytes() const { return staging_.size; }
@@ -90,8 +97,8 @@ private:
         uint64_t serial; ///< last frame that reads it
     };
 
-    SceneTextures(const Device& device, const formats::PackView& pack, MemoryArena arena, Buffer staging,
-                  pack::TextureStream stream, uint32_t slot_bytes);
+    StreamedTextures(const Device& device, const formats::PackView& pack, StreamedTextureOptions options,
+                     MemoryArena arena, Buffer staging, pack::TextureStream stream, uint32_t slot_bytes);
     Result<Held> makeImage(uint32_t image, uint32_t first_mip) const;
     bool beginImage(VkCommandBuffer commands, std::optional<Held>& place, uint32_t image, uint32_t first_mip);
     void recordEvictions(VkCommandBuffer commands);
@@ -99,7 +106,6 @@ private:
     void recordPublished(VkCommandBuffer commands);
     void replace(VkCommandBuffer commands, uint32_t image, Held held);
     void copyMips(VkCommandBuffer commands, const Held& from, const Held& to, uint32_t first_mip) const;
-    void updateSets(const Scene& scene);
 
     const Device& device_;
     const formats::PackView& pack_;
@@ -113,6 +119,7 @@ private:
     std::vector<std::vector<pack::TextureUse>> uses_;        ///< [material row]
     std::vector<std::vector<uint32_t>> rows_of_image_;
     std::vector<std::vector<bool>> outdated_; ///< [frame in flight][material row]: its set names old images
+    std::vector<uint32_t> outdated_rows_;
     pack::TextureChanges changes_{};
     uint64_t serial_ = 0;
     uint64_t bytes_streamed_ = 0;

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/gpu/scene/scene_textures.h"
+#include "runtime/gpu/textures/streamed_textures.h"
 
 #include "formats/gpu_shared/decisions.h"
-#include "runtime/gpu/scene/scene.h"
-#include "runtime/gpu/scene/texture_upload.h"
+#include "runtime/gpu/textures/image_layout.h"
 #include "runtime/gpu/vulkan/image_barrier.h"
 
 #include <algorithm>
@@ -44,8 +43,8 @@ VkExtent3D levelExtent(const Image& image, uint32_t level)
     return {std::max(1u, image.extent.width >> level), std::max(1u, image.extent.height >> level), 1};
 }
 
-/// Convert a word of shared::texelRequest to log2 of the pixels of a UV unit, at least as many as it means: its
-/// logarithm is off by so much at most.
+/// Convert a word of shared::texelRequest to log2 of the pixels of a UV unit, at least as many as it means:
+/// its logarithm is off by so much at most.
 float pixelsFromRequest(uint32_t request)
 {
     constexpr float kLogarithmError = 0.0861f;
@@ -64,10 +63,10 @@ uint32_t maxPieceBytes(const formats::PackView& pack)
 
 } // namespace
 
-Result<TextureSizes> measureTextures(const Device& device, const formats::PackView& pack)
+Result<TextureSizes> measureTextures(const Device& device, const formats::PackView& pack,
+                                     const std::vector<bool>& used)
 {
     TextureSizes sizes(pack.images().size());
-    const std::vector<bool> used = findUsedImages(pack);
     for (uint32_t image = 0; image < sizes.size(); ++image)
     {
         const formats::ImageRecord& record = pack.images()[image];
@@ -82,10 +81,8 @@ Result<TextureSizes> measureTextures(const Device& device, const formats::PackVi
     return sizes;
 }
 
-Result<std::unique_ptr<SceneTextures>> SceneTextures::create(const Device& device,
-                                                             const formats::PackView& pack,
-                                                             const TextureSizes& sizes, uint64_t budget_bytes,
-                                                             const StreamOptions& options)
+Result<std::unique_ptr<StreamedTextures>>
+StreamedTextures::create(const Device& device, const formats::PackView& pack, StreamedTextureOptions options)
 {
     const uint32_t slot_bytes = maxPieceBytes(pack);
     const VkDeviceSize staging_bytes = VkDeviceSize{kSlotsPerLoad} * options.max_loads * slot_bytes;
@@ -95,18 +92,20 @@ Result<std::unique_ptr<SceneTextures>> SceneTextures::create(const Device& devic
         arena.createBuffer(staging_bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::staging));
     HEARTH_ASSIGN_OR_RETURN(
         pack::TextureStream stream,
-        pack::TextureStream::create(pack, pack::TextureGraph(sizes),
-                                    {.budget_bytes = budget_bytes,
+        pack::TextureStream::create(pack, pack::TextureGraph(options.sizes),
+                                    {.budget_bytes = options.budget_bytes,
                                      .max_loads = options.max_loads,
                                      .slot_bytes = slot_bytes,
                                      .read = options.read},
                                     {staging.mapped, static_cast<size_t>(staging_bytes)}));
-    return std::unique_ptr<SceneTextures>(
-        new SceneTextures(device, pack, std::move(arena), std::move(staging), std::move(stream), slot_bytes));
+    return std::unique_ptr<StreamedTextures>(new StreamedTextures(device, pack, std::move(options),
+                                                                  std::move(arena), std::move(staging),
+                                                                  std::move(stream), slot_bytes));
 }
 
-SceneTextures::SceneTextures(const Device& device, const formats::PackView& pack, MemoryArena arena,
-                             Buffer staging, pack::TextureStream stream, uint32_t slot_bytes)
+StreamedTextures::StreamedTextures(const Device& device, const formats::PackView& pack,
+                                   StreamedTextureOptions options, MemoryArena arena, Buffer staging,
+                                   pack::TextureStream stream, uint32_t slot_bytes)
     : device_(device),
       pack_(pack),
       arena_(std::move(arena)),
@@ -115,27 +114,19 @@ SceneTextures::SceneTextures(const Device& device, const formats::PackView& pack
       slot_bytes_(slot_bytes),
       images_(pack.images().size()),
       pieces_(pack.images().size()),
-      rows_of_image_(pack.images().size())
+      uses_(std::move(options.uses)),
+      rows_of_image_(pack.images().size()),
+      outdated_(options.frame_count, std::vector<bool>(uses_.size(), false))
 {
     for (uint32_t image = 0; image < images_.size(); ++image)
         if (stream_.graph().mipCount(image) > 0)
             pieces_[image] = formats::listTexturePieces(pack.images()[image]);
-    for (const LayeredMaterial& material : readMaterials(pack))
-    {
-        const auto row = static_cast<uint32_t>(uses_.size());
-        std::vector<pack::TextureUse>& uses = uses_.emplace_back();
-        for (const formats::TextureRef& texture : materialTextures(material))
-            if (texture.image != kInvalidIndex && stream_.graph().mipCount(texture.image) > 0)
-            {
-                uses.push_back(pack::makeTextureUse(pack, texture));
-                std::vector<uint32_t>& rows = rows_of_image_[texture.image];
-                if (rows.empty() || rows.back() != row)
-                    rows.push_back(row);
-            }
-    }
+    for (uint32_t row = 0; row < uses_.size(); ++row)
+        for (const pack::TextureUse& use : uses_[row])
+            rows_of_image_[use.image].push_back(row);
 }
 
-Status SceneTextures::uploadTails(Uploader& uploader)
+Status StreamedTextures::uploadTails(Uploader& uploader)
 {
     for (uint32_t image = 0; image < images_.size(); ++image)
     {
@@ -152,14 +143,14 @@ Status SceneTextures::uploadTails(Uploader& uploader)
     return success();
 }
 
-Result<SceneTextures::Held> SceneTextures::makeImage(uint32_t image, uint32_t first_mip) const
+Result<StreamedTextures::Held> StreamedTextures::makeImage(uint32_t image, uint32_t first_mip) const
 {
     Held held{MemoryArena(device_, 0), {}, first_mip};
     HEARTH_ASSIGN_OR_RETURN(held.image, held.arena.createImage(describe(pack_.images()[image], first_mip)));
     return held;
 }
 
-void SceneTextures::beginFrame(uint64_t serial, uint64_t completed_serial)
+void StreamedTextures::beginFrame(uint64_t serial, uint64_t completed_serial)
 {
     serial_ = serial;
     std::erase_if(retired_, [&](const Retired& retired) { return retired.serial <= completed_serial; });
@@ -174,7 +165,7 @@ void SceneTextures::beginFrame(uint64_t serial, uint64_t completed_serial)
     }
 }
 
-void SceneTextures::request(std::span<const uint32_t> materials)
+void StreamedTextures::request(std::span<const uint32_t> materials)
 {
     for (size_t row = 0; row < uses_.size(); ++row)
         if (materials[row] != 0)
@@ -182,7 +173,7 @@ void SceneTextures::request(std::span<const uint32_t> materials)
                 stream_.request(use, pixelsFromRequest(materials[row]));
 }
 
-uint32_t SceneTextures::countMissing(std::span<const uint32_t> materials) const
+uint32_t StreamedTextures::countMissing(std::span<const uint32_t> materials) const
 {
     uint32_t missing = 0;
     for (size_t row = 0; row < uses_.size(); ++row)
@@ -192,16 +183,20 @@ uint32_t SceneTextures::countMissing(std::span<const uint32_t> materials) const
     return missing;
 }
 
-void SceneTextures::record(VkCommandBuffer commands, const Scene& scene)
+std::span<const uint32_t> StreamedTextures::record(VkCommandBuffer commands, uint32_t frame)
 {
-    outdated_.resize(scene.frames.size(), std::vector<bool>(uses_.size(), false));
     recordEvictions(commands);
     recordUploads(commands);
     recordPublished(commands);
-    updateSets(scene);
+    outdated_rows_.clear();
+    for (uint32_t row = 0; row < uses_.size(); ++row)
+        if (outdated_[frame][row])
+            outdated_rows_.push_back(row);
+    outdated_[frame].assign(uses_.size(), false);
+    return outdated_rows_;
 }
 
-void SceneTextures::recordEvictions(VkCommandBuffer commands)
+void StreamedTextures::recordEvictions(VkCommandBuffer commands)
 {
     for (size_t i = 0; i < changes_.evicted.size(); ++i)
     {
@@ -217,8 +212,8 @@ void SceneTextures::recordEvictions(VkCommandBuffer commands)
 }
 
 /// Create an image that copies can fill. False if the device has no memory for it, which is told.
-bool SceneTextures::beginImage(VkCommandBuffer commands, std::optional<Held>& place, uint32_t image,
-                               uint32_t first_mip)
+bool StreamedTextures::beginImage(VkCommandBuffer commands, std::optional<Held>& place, uint32_t image,
+                                  uint32_t first_mip)
 {
     Result<Held> made = makeImage(image, first_mip);
     if (!made.ok())
@@ -234,7 +229,7 @@ bool SceneTextures::beginImage(VkCommandBuffer commands, std::optional<Held>& pl
     return true;
 }
 
-void SceneTextures::recordUploads(VkCommandBuffer commands)
+void StreamedTextures::recordUploads(VkCommandBuffer commands)
 {
     for (const pack::PieceUpload& upload : changes_.uploads)
     {
@@ -254,7 +249,7 @@ void SceneTextures::recordUploads(VkCommandBuffer commands)
     }
 }
 
-void SceneTextures::recordPublished(VkCommandBuffer commands)
+void StreamedTextures::recordPublished(VkCommandBuffer commands)
 {
     for (const pack::TextureMip& published : changes_.published)
         if (std::optional<Held>& incoming = images_[published.image].incoming)
@@ -266,7 +261,7 @@ void SceneTextures::recordPublished(VkCommandBuffer commands)
 }
 
 /// Fill the mips of an image that the current one has, and put it in its place.
-void SceneTextures::replace(VkCommandBuffer commands, uint32_t image, Held held)
+void StreamedTextures::replace(VkCommandBuffer commands, uint32_t image, Held held)
 {
     std::optional<Held>& current = images_[image].current;
     copyMips(commands, *current, held, std::max(current->first_mip, held.first_mip));
@@ -281,10 +276,10 @@ void SceneTextures::replace(VkCommandBuffer commands, uint32_t image, Held held)
             rows[row] = true;
 }
 
-/// Copy the mips from `first_mip` of the pack's image on, which both have. Frames before have read `from`; none
-/// reads it after.
-void SceneTextures::copyMips(VkCommandBuffer commands, const Held& from, const Held& to,
-                             uint32_t first_mip) const
+/// Copy the mips from `first_mip` of the pack's image on, which both have. Frames before have read `from`;
+/// none reads it after.
+void StreamedTextures::copyMips(VkCommandBuffer commands, const Held& from, const Held& to,
+                                uint32_t first_mip) const
 {
     transition(device_, commands, from.image, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
                VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_ACCESS_SHADER_READ_BIT, VK_ACCESS_TRANSFER_READ_BIT,
@@ -301,21 +296,7 @@ void SceneTextures::copyMips(VkCommandBuffer commands, const Held& from, const H
                               static_cast<uint32_t>(regions.size()), regions.data());
 }
 
-/// Write the sets of materials whose images have changed since this frame in flight was recorded last.
-void SceneTextures::updateSets(const Scene& scene)
-{
-    const uint32_t frame = scene.tables->frame;
-    for (uint32_t row = 0; row < outdated_[frame].size(); ++row)
-        if (outdated_[frame][row])
-        {
-            writeMaterialTextures(device_, scene, row, scene.materials[row].sets[frame]);
-            if (scene.joined_sets != nullptr)
-                scene.joined_sets->setMaterial(device_, frame, row, scene.materials[row].sets[frame]);
-            outdated_[frame][row] = false;
-        }
-}
-
-TextureStatistics SceneTextures::statistics() const
+TextureStatistics StreamedTextures::statistics() const
 {
     const pack::Residency& residency = stream_.residency();
     uint64_t on_device = 0;
