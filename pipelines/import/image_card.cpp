@@ -47,6 +47,7 @@ Status importImage(const std::string& path, std::span<const std::byte> bytes, co
     for (const ImageNote& note : image.notes)
         part.warn(note.issue, "", note.text);
     part.warnOfColorDepth(image, "", "the image");
+    part.warnOfTransfer(image, true, "", "the image");
     const std::string name = path.substr(path.rfind('/') + 1);
     formats::ImageRecord record{};
     record.name = part.intern(name);

@@ -33,11 +33,25 @@ struct Ktx2
     uint32_t level_count = 1;
     uint32_t scheme = 0;
     uint8_t model = 1; // RGBSDA
+    uint8_t transfer = 0;
+    uint8_t flags = 0;
     std::vector<uint8_t> channels = {0, 1, 2, 15};
     Bytes key_values;
     Bytes global_data;
     std::vector<Bytes> levels = {Bytes(16)}; // finest first
     std::vector<uint64_t> uncompressed = {16};
+
+    /// Add an entry of key and value; the value is a text that ends in 0.
+    void addText(const std::string& key, const std::string& value)
+    {
+        append(key_values, key.size() + value.size() + 2, 4);
+        for (const std::string& text : {key, value})
+        {
+            key_values.insert(key_values.end(), text.begin(), text.end());
+            key_values.push_back(0);
+        }
+        key_values.resize((key_values.size() + 3) / 4 * 4);
+    }
 
     Bytes file() const
     {
@@ -46,7 +60,7 @@ struct Ktx2
         append(descriptor, 4 + block, 4);
         append(descriptor, 0, 4);
         append(descriptor, 2 | block << 16, 4);
-        append(descriptor, model, 4);
+        append(descriptor, model | uint32_t{transfer} << 16 | uint32_t{flags} << 24, 4);
         append(descriptor, 0, 12);
         for (const uint8_t channel : channels)
         {

@@ -19,8 +19,8 @@ namespace
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 9> kImageExtensions{".png", ".jpg", ".jpeg", ".webp", ".tga",
-                                                           ".bmp", ".hdr", ".exr",  ".ktx2"};
+constexpr std::array<std::string_view, 10> kImageExtensions{".png", ".jpg", ".jpeg", ".webp", ".tga",
+                                                            ".bmp", ".hdr", ".exr",  ".ktx2", ".dds"};
 /// Other files that sources refer to.
 constexpr std::array<std::string_view, 2> kSideFileExtensions{".bin", ".mtl"};
 /// Files that Hearth itself writes, or reads its settings from.

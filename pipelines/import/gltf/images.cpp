@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/gltf/images.h"
 
+#include "pipelines/import/images/channels.h"
 #include "pipelines/import/images/decode.h"
 #include "pipelines/import/part/part_builder.h"
 #include "pipelines/import/source/file_bytes.h"
@@ -98,6 +99,15 @@ std::optional<DecodedImage> GltfImages::decode(uint32_t image, const std::string
     return std::nullopt;
 }
 
+void GltfImages::warnOfUse(const DecodedImage& image, ImagePurpose purpose, const std::string& where,
+                           const std::string& name)
+{
+    const bool are_colors = purpose == ImagePurpose::color;
+    if (are_colors)
+        context_.part.warnOfColorDepth(image, where, name);
+    context_.part.warnOfTransfer(image, are_colors, where, name);
+}
+
 Result<uint32_t> GltfImages::write(uint32_t image, ImagePurpose purpose, const std::string& where,
                                    const std::string& user)
 {
@@ -105,14 +115,15 @@ Result<uint32_t> GltfImages::write(uint32_t image, ImagePurpose purpose, const s
     if (found != written_.end())
         return found->second;
     const std::string image_where = image == kInvalidIndex ? where : fmt::format("/images/{}", image);
-    const std::optional<DecodedImage> decoded = decode(image, image_where, user);
+    std::optional<DecodedImage> decoded = decode(image, image_where, user);
     ImageRecord record = recordFor(purpose);
     record.name = context_.part.intern(imageName(image));
     if (!decoded)
         record.flags |= kImagePlaceholder;
-    else if (purpose == ImagePurpose::color)
-        context_.part.warnOfColorDepth(*decoded, image_where,
-                                       fmt::format("image \"{}\" of {}", imageName(image), user));
+    else
+        warnOfUse(*decoded, purpose, image_where, fmt::format("image \"{}\" of {}", imageName(image), user));
+    if (decoded && purpose == ImagePurpose::normal)
+        decoded = completeNormals(*std::move(decoded));
     const auto cutoff = alpha_cutoff_of_image_.find(image);
     if (purpose == ImagePurpose::color && cutoff != alpha_cutoff_of_image_.end())
     {

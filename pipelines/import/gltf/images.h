@@ -49,6 +49,9 @@ public:
 private:
     Result<DecodedImage> read(uint32_t image, const std::string& where);
     std::string imageName(uint32_t image) const;
+    /// Warn of what the use does not keep, or reads in another way than the file says.
+    void warnOfUse(const DecodedImage& image, ImagePurpose purpose, const std::string& where,
+                   const std::string& name);
 
     const GltfModel& model_;
     const GltfBuffers& buffers_;

@@ -2,10 +2,12 @@
 #include "pipelines/import/images/channels.h"
 
 #include "formats/base/assert.h"
+#include "formats/base/half.h"
 #include "formats/pack/pack_view.h"
 #include "pipelines/import/images/resized_image.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 namespace hearth::import
@@ -24,6 +26,25 @@ uint16_t readChannel(const DecodedImage& image, size_t at)
     uint16_t channel;
     std::memcpy(&channel, image.texels.data() + at * sizeof(channel), sizeof(channel));
     return channel;
+}
+
+/// Set channel `at` to a number of 16 bits, or the bits of a half.
+void writeChannel(DecodedImage& image, size_t at, uint16_t channel)
+{
+    if (image.type == ChannelType::unorm8)
+        image.texels[at] = std::byte{formats::narrowUnorm(channel)};
+    else
+        std::memcpy(image.texels.data() + at * sizeof(channel), &channel, sizeof(channel));
+}
+
+/// Return z of the unit vector with x and y, all as normal maps have them.
+uint16_t completeNormal(uint16_t x, uint16_t y)
+{
+    constexpr int64_t kMax = UINT16_MAX;
+    const int64_t from_x = 2 * int64_t{x} - kMax, from_y = 2 * int64_t{y} - kMax;
+    const int64_t square = std::max<int64_t>(0, kMax * kMax - from_x * from_x - from_y * from_y);
+    const double z = std::sqrt(static_cast<double>(square)); // of 0 to kMax
+    return static_cast<uint16_t>((static_cast<double>(kMax) + z) / 2 + 0.5);
 }
 
 size_t countChannels(const DecodedImage& image)
@@ -55,6 +76,44 @@ DecodedImage narrow(DecodedImage image)
     image.texels.shrink_to_fit();
     image.type = ChannelType::unorm8;
     return image;
+}
+
+DecodedImage completeNormals(DecodedImage image)
+{
+    if (image.isFloat())
+        return image;
+    for (size_t at = 0; at < countChannels(image); at += 4)
+        if (readChannel(image, at + 2) != 0)
+            return image;
+    for (size_t at = 0; at < countChannels(image); at += 4)
+        writeChannel(image, at + 2, completeNormal(readChannel(image, at), readChannel(image, at + 1)));
+    return image;
+}
+
+void straightenAlpha(DecodedImage& image)
+{
+    for (size_t at = 0; at < countChannels(image); at += 4)
+    {
+        const uint16_t alpha = readChannel(image, at + 3);
+        if (alpha == 0)
+            continue;
+        for (size_t c = at; c < at + 3; ++c)
+        {
+            const uint32_t color = readChannel(image, c);
+            const uint16_t straight =
+                image.isFloat()
+                    ? halfFromFloat(floatFromHalf(static_cast<uint16_t>(color)) / floatFromHalf(alpha))
+                    : static_cast<uint16_t>(
+                          std::min<uint32_t>((color * UINT16_MAX + alpha / 2u) / alpha, UINT16_MAX));
+            writeChannel(image, c, straight);
+        }
+    }
+}
+
+void dropAlpha(DecodedImage& image)
+{
+    for (size_t at = 3; at < countChannels(image); at += 4)
+        writeChannel(image, at, image.isFloat() ? kHalfOne : uint16_t{UINT16_MAX});
 }
 
 DecodedImage mergeChannels(const DecodedImage& first, const DecodedImage& second, uint32_t first_channels)

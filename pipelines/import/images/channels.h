@@ -16,6 +16,16 @@ DecodedImage narrow(DecodedImage image);
 /// Return an image with 16 bits a channel, without loss. The image has no floats (asserted).
 DecodedImage widen(DecodedImage image);
 
+/// Return a normal map with blue, where it has none: blue is 0 in every texel, as formats of two channels are
+/// read. It becomes z of the unit vector whose x and y are red and green.
+DecodedImage completeNormals(DecodedImage image);
+
+/// Divide colours by alpha, in the codes in which they are stored; those under alpha 0 stay.
+void straightenAlpha(DecodedImage& image);
+
+/// Make every texel opaque.
+void dropAlpha(DecodedImage& image);
+
 /// Return an image whose channels are those of `first` where their bit is set, and else of `second`: bit 0 is
 /// R, bit 3 is A. It has the larger width and height of both; an empty image counts as white.
 /// Images of 8 bits a channel (asserted), not both empty.

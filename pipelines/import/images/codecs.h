@@ -55,5 +55,6 @@ Result<DecodedImage> decodeBmp(const EncodedImage& source);
 Result<DecodedImage> decodeHdr(const EncodedImage& source);
 Result<DecodedImage> decodeExr(const EncodedImage& source);
 Result<DecodedImage> decodeKtx2(const EncodedImage& source);
+Result<DecodedImage> decodeDds(const EncodedImage& source);
 
 } // namespace hearth::import

@@ -44,7 +44,7 @@ constexpr std::array kSignatures = {
     Signature{"\xABKTX 11\xBB\r\n\x1A\n"sv, nullptr, "KTX1"},
     Signature{"sB\x13\x00"sv, nullptr, "Basis (.basis)"},
     Signature{"GIF8"sv, nullptr, "GIF"},
-    Signature{"DDS "sv, nullptr, "DDS"},
+    Signature{"DDS "sv, decodeDds, "DDS"},
     Signature{"II*\0"sv, nullptr, "TIFF", 0, images::Format::tiff},
     Signature{"MM\0*"sv, nullptr, "TIFF", 0, images::Format::tiff},
     Signature{"II+\0"sv, nullptr, "TIFF", 0, images::Format::tiff}, // BigTIFF
@@ -58,7 +58,7 @@ constexpr std::array kSignatures = {
 };
 
 constexpr std::array kExtensions = {".png"sv, ".jpg"sv, ".jpeg"sv, ".webp"sv, ".tga"sv,
-                                    ".bmp"sv, ".hdr"sv, ".exr"sv,  ".ktx2"sv};
+                                    ".bmp"sv, ".hdr"sv, ".exr"sv,  ".ktx2"sv, ".dds"sv};
 
 const Signature* findSignature(std::span<const std::byte> bytes)
 {

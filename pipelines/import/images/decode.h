@@ -12,8 +12,8 @@
 namespace hearth::import
 {
 
-/// Decode PNG, JPEG, WebP, TGA, BMP, HDR, EXR or KTX2, chosen by content; with a program in `artist` TIFF,
-/// PSD, JPEG 2000 and any part of an EXR, too. `name` is used in messages.
+/// Decode PNG, JPEG, WebP, TGA, BMP, HDR, EXR, KTX2 or DDS, chosen by content; with a program in `artist`
+/// TIFF, PSD, JPEG 2000 and any part of an EXR, too. `name` is used in messages.
 /// errors: image_malformed, image_unsupported, input_too_large, image_reader.
 Result<DecodedImage> decodeImage(std::span<const std::byte> bytes, const std::string& name,
                                  const ImportLimits& limits, const ArtistImages& artist = {});

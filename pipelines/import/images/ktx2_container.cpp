@@ -44,11 +44,29 @@ struct LevelIndex
 
 constexpr uint32_t kDescriptorHeaderBytes = 24; ///< size of the basic descriptor block before its samples
 constexpr uint32_t kSampleBytes = 16;
+constexpr uint8_t kTransferLinear = 1;
 constexpr uint8_t kTransferSrgb = 2;
+constexpr uint8_t kFlagPremultiplied = 1;
 
 bool hasGlobalData(uint32_t scheme)
 {
     return scheme == static_cast<uint32_t>(Ktx2Scheme::basis_lz);
+}
+
+constexpr const char* kCubeMap = "KTX2: a cube map is not an image: save the face that is meant as one";
+
+Status checkDimensions(const EncodedImage& source, const Ktx2Header& header)
+{
+    if (header.face_count == 6)
+        return source.unsupported(kCubeMap);
+    if (header.depth != 0)
+        return source.unsupported("KTX2: a volume is not an image: save the slice that is meant as one");
+    if (header.layer_count > 1)
+        return source.unsupported("KTX2: an array of " + std::to_string(header.layer_count) +
+                                  " layers is not an image: save the layer that is meant as one");
+    if (header.height == 0)
+        return source.unsupported("KTX2: a line is not an image: save it with a height of 1");
+    return success();
 }
 
 Status checkHeader(const EncodedImage& source, const Ktx2Header& header)
@@ -76,12 +94,18 @@ Status checkHeader(const EncodedImage& source, const Ktx2Header& header)
         return wrong("sgdByteOffset without sgdByteLength");
     if ((header.globalSize() != 0) != hasGlobalData(header.scheme))
         return wrong("supercompression global data is missing or out of place");
-    if (header.height == 0 || header.depth != 0 || header.layer_count > 1 || header.face_count == 6)
-        return source.unsupported("KTX2: only two-dimensional textures of one layer are read");
+    HEARTH_TRY(checkDimensions(source, header));
     return checkImageSize(source, header.width, header.height);
 }
 
-/// Read the basic block of the data format descriptor: colour model and channels.
+Transfer transferFrom(uint8_t number)
+{
+    return number == kTransferSrgb     ? Transfer::srgb
+           : number == kTransferLinear ? Transfer::linear
+                                       : Transfer::unsaid;
+}
+
+/// Read the basic block of the data format descriptor: colour model, transfer function, flags and channels.
 bool readDescriptor(std::span<const std::byte> bytes, Ktx2File& file)
 {
     ByteReader reader(bytes);
@@ -92,13 +116,15 @@ bool readDescriptor(std::span<const std::byte> bytes, Ktx2File& file)
     const auto color_model = reader.read<uint8_t>();
     reader.skip(1); // primaries
     const auto transfer = reader.read<uint8_t>();
-    if (!transfer || *total_size != bytes.size() || *vendor_and_type != 0)
+    const auto flags = reader.read<uint8_t>();
+    if (!flags || *total_size != bytes.size() || *vendor_and_type != 0)
         return false;
     if (*block_size < kDescriptorHeaderBytes || *block_size > bytes.size() - sizeof(uint32_t) ||
         (*block_size - kDescriptorHeaderBytes) % kSampleBytes != 0)
         return false;
     file.color_model = *color_model;
-    file.is_srgb = *transfer == kTransferSrgb;
+    file.transfer = transferFrom(*transfer);
+    file.is_premultiplied = (*flags & kFlagPremultiplied) != 0;
     const uint32_t sample_count = (*block_size - kDescriptorHeaderBytes) / kSampleBytes;
     for (uint32_t i = 0; i < sample_count; ++i)
     {
@@ -112,8 +138,26 @@ bool readDescriptor(std::span<const std::byte> bytes, Ktx2File& file)
     return sample_count > 0;
 }
 
-/// Check the entries of key and value, each of at least two bytes and padded to four.
-Status checkKeyValues(const EncodedImage& source, std::span<const std::byte> bytes)
+/// Read KTXorientation of two dimensions, such as "rd".
+Status readOrientation(const EncodedImage& source, std::string_view value, Ktx2File& file)
+{
+    if (value.size() != 2 || (value[0] != 'r' && value[0] != 'l') || (value[1] != 'd' && value[1] != 'u'))
+        return source.malformed("KTX2: KTXorientation is none of rd, ru, ld, lu");
+    file.is_mirrored = value[0] == 'l';
+    file.is_bottom_up = value[1] == 'u';
+    return success();
+}
+
+Status readSwizzle(const EncodedImage& source, std::string_view value, Ktx2File& file)
+{
+    if (value.size() != 4 || value.find_first_not_of("rgba01") != std::string_view::npos)
+        return source.malformed("KTX2: KTXswizzle is not four of rgba01");
+    file.swizzle = value;
+    return success();
+}
+
+/// Read the entries of key and value, each of at least two bytes and padded to four.
+Status readKeyValues(const EncodedImage& source, std::span<const std::byte> bytes, Ktx2File& file)
 {
     ByteReader reader(bytes);
     while (reader.remaining() > 0)
@@ -126,8 +170,14 @@ Status checkKeyValues(const EncodedImage& source, std::span<const std::byte> byt
         const size_t key_end = text.find('\0');
         if (key_end == 0 || key_end == std::string_view::npos)
             return source.malformed("KTX2: an entry of the key/value data has no key");
-        if (text.substr(0, key_end) == "KTXcubemapIncomplete")
-            return source.unsupported("KTX2: cube maps are not read");
+        const std::string_view key = text.substr(0, key_end), padded = text.substr(key_end + 1);
+        const std::string_view value = padded.substr(0, std::min(padded.find('\0'), padded.size()));
+        if (key == "KTXcubemapIncomplete")
+            return source.unsupported(kCubeMap);
+        if (key == "KTXorientation")
+            HEARTH_TRY(readOrientation(source, value, file));
+        if (key == "KTXswizzle")
+            HEARTH_TRY(readSwizzle(source, value, file));
         reader.skip(std::min<size_t>((4 - *size % 4) % 4, reader.remaining()));
     }
     return success();
@@ -175,9 +225,8 @@ Result<Ktx2File> readKtx2(const EncodedImage& source)
     if (!descriptor || !key_values || !global_data)
         return source.malformed("KTX2: a part of the index lies outside the file");
 
-    HEARTH_TRY(checkKeyValues(source, *key_values));
-
     Ktx2File file;
+    HEARTH_TRY(readKeyValues(source, *key_values, file));
     file.vk_format = header->vk_format;
     file.width = header->width;
     file.height = header->height;

@@ -33,7 +33,11 @@ struct Ktx2File
     uint32_t height = 0;
     Ktx2Scheme scheme = Ktx2Scheme::none;
     uint32_t color_model = 0;
-    bool is_srgb = false;                  ///< transfer function of the data format descriptor
+    Transfer transfer = Transfer::unsaid;  ///< of the data format descriptor
+    bool is_premultiplied = false;         ///< colours were multiplied by alpha
+    bool is_mirrored = false;              ///< columns go from right to left
+    bool is_bottom_up = false;             ///< rows go from bottom to top
+    std::string swizzle;                   ///< sources of red, green, blue, alpha: "rgba01"; empty: not said
     std::vector<uint32_t> sample_channels; ///< channel of each sample of the data format descriptor
     std::span<const std::byte> global_data;
     std::vector<Ktx2Level> levels; ///< finest first

@@ -217,6 +217,18 @@ void PartBuilder::warnOfColorDepth(const DecodedImage& image, const std::string&
              name + ": its colours have 16 bits a channel, 8 are kept; mips are made from all 16");
 }
 
+void PartBuilder::warnOfTransfer(const DecodedImage& image, bool are_colors, const std::string& where,
+                                 const std::string& name)
+{
+    const Transfer other = are_colors ? Transfer::linear : Transfer::srgb;
+    if (image.transfer == other && !image.isFloat())
+        warn(Issue::inconsistent, where,
+             name +
+                 (are_colors
+                      ? ": its file says linear numbers, its use colours in sRGB, as which they are read"
+                      : ": its file says colours in sRGB, its use linear numbers, as which they are read"));
+}
+
 std::vector<Error> PartBuilder::warnings() const
 {
     std::vector<Error> errors;

@@ -27,6 +27,14 @@ enum class ChannelType : uint8_t
     float16, ///< linear
 };
 
+/// Transfer function of an image's colours, as its file says it. The use of an image decides how it is read.
+enum class Transfer : uint8_t
+{
+    unsaid,
+    linear,
+    srgb,
+};
+
 /// Loss in an image's decoding, for a warning by the image's user.
 struct ImageNote
 {
@@ -42,6 +50,7 @@ struct DecodedImage
     ChannelType type = ChannelType::unorm8;
     std::vector<std::byte> texels; ///< width * height * texelBytes()
     std::vector<ImageNote> notes{};
+    Transfer transfer = Transfer::unsaid;
 
     bool isFloat() const { return type == ChannelType::float16; }
     size_t channelBytes() const { return type == ChannelType::unorm8 ? 1 : 2; }
@@ -100,6 +109,12 @@ public:
     /// Warn of an image of colours that has 16 bits a channel: its mips have 8.
     /// name  of the image in the message: "image \"bark.png\" of material \"oak\""
     void warnOfColorDepth(const DecodedImage& image, const std::string& where, const std::string& name);
+
+    /// Warn of an image whose file says another transfer function than its use asks for.
+    /// are_colors  the use: sRGB; false: numbers as they are
+    /// name        as above
+    void warnOfTransfer(const DecodedImage& image, bool are_colors, const std::string& where,
+                        const std::string& name);
 
     /// Register a source file that was read: name relative to the asset's folder, and content for the hash.
     void addSource(std::string name, std::span<const std::byte> content);

@@ -193,7 +193,7 @@ private:
         if (known != image_of_key_.end())
             return known->second;
         bool placeholder = false;
-        const DecodedImage image = load(texture.file, purpose == Purpose::color, placeholder);
+        DecodedImage image = load(texture.file, purpose == Purpose::color, placeholder);
         // the flat normal is (128, 128, 255)
         const bool height_map = may_be_height_map && !placeholder && !image.isFloat() && isGrey(image);
         if (height_map)
@@ -202,6 +202,8 @@ private:
         uint32_t index = kInvalidIndex;
         if (!height_map && (!placeholder || purpose != Purpose::normals))
         {
+            if (purpose == Purpose::normals)
+                image = completeNormals(std::move(image));
             HEARTH_ASSIGN_OR_RETURN(
                 index, addImage(texture.file, image, purpose, placeholder ? formats::kImagePlaceholder : 0u));
         }
@@ -243,9 +245,12 @@ private:
         part_.addSource(name, file.bytes());
         Result<DecodedImage> image = decodeImage(file.bytes(), name, options_.limits,
                                                  are_colors ? options_.artist : options_.artist.withoutIcc());
-        if (image.ok())
-            for (const ImageNote& note : image->notes)
-                part_.warn(note.issue, "", "image '" + name + "'" + describeUser() + ": " + note.text);
+        if (!image.ok())
+            return image;
+        const std::string described = "image '" + name + "'" + describeUser();
+        for (const ImageNote& note : image->notes)
+            part_.warn(note.issue, "", described + ": " + note.text);
+        part_.warnOfTransfer(*image, are_colors, "", described);
         return image;
     }
 

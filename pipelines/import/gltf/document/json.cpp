@@ -22,6 +22,7 @@ constexpr std::string_view kUncheckedExtensions[] = {
     "KHR_draco_mesh_compression",
     "KHR_texture_basisu",
     "MSFT_lod",
+    "MSFT_texture_dds",
 };
 
 /// True if the validator does not look at a place of a document: custom properties, and some extensions.

@@ -34,6 +34,7 @@ constexpr std::string_view kSupportedExtensions[] = {
     "KHR_texture_basisu",
     "KHR_texture_transform",
     "MSFT_lod",
+    "MSFT_texture_dds",
 };
 
 bool isSupported(std::string_view name)

@@ -63,7 +63,7 @@ uint32_t readTextureImage(const GltfObject& object, const GltfModel& model)
 {
     const uint32_t plain = object.index("source", model.images.size());
     uint32_t extended = kInvalidIndex;
-    for (const char* name : {"EXT_texture_webp", "KHR_texture_basisu"})
+    for (const char* name : {"EXT_texture_webp", "KHR_texture_basisu", "MSFT_texture_dds"})
         if (const auto extension = object.extension(name))
         {
             const uint32_t source = extension->index("source", model.images.size());
