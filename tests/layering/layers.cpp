@@ -228,6 +228,7 @@ const std::vector<Library>& libraries()
         {"png.h",
          {"pipelines/import/images/", "cook/visibility/scene/", "runtime/viewer/compare/",
           "sample_assets/shapes/"}},
+        {"zlib.h", {"pipelines/import/images/"}},
         {"jpeglib.h", {"pipelines/import/"}},
         {"jerror.h", {"pipelines/import/"}},
         {"webp/", {"pipelines/import/"}},

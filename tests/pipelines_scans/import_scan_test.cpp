@@ -279,6 +279,20 @@ TEST(ImportScan, heightMapsAreNamedAndNormalMapsKept)
     EXPECT_EQ(scan.mesh.tangents.size(), scan.mesh.vertexCount());
 }
 
+TEST(ImportScan, normalMapsOfTwoChannelsGetTheirZ)
+{
+    const TemporaryFolder folder;
+    write(folder, "a.mtl", "newmtl m\nmap_Bump n.tga\n");
+    write(folder, "n.tga",
+          std::string("\0\0\2\0\0\0\0\0\0\0\0\0\1\0\1\0\x18\0\0\x80\x80", 21)); // 1 x 1 texel
+    const Imported scan =
+        import(importScan, folder, "a.obj", "mtllib a.mtl\n" + kQuad + "usemtl m\nf 1/1 2/2 3/3\n");
+    EXPECT_TRUE(scan.warnings.empty());
+    ASSERT_EQ(scan.first_image.size(), 4u);
+    EXPECT_EQ(scan.first_image[0], std::byte{128});
+    EXPECT_EQ(scan.first_image[2], std::byte{255});
+}
+
 TEST(ImportScan, aPlyTakesTheTextureItNames)
 {
     const TemporaryFolder folder;
