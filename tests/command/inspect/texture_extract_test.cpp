@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/inspect/extract_texture.h"
 
-#include "formats/texels/decode_texels.h"
+#include "formats/base/half.h"
+#include "formats/texels/decode_image.h"
+#include "formats/texels/swizzle.h"
+#include "pipelines/import/images/decode.h"
 #include "tests/support/sandbox.h"
 #include "tests/support/small_pack.h"
 
 #include <cstring>
 #include <gtest/gtest.h>
+#include <random>
 
 namespace hearth::test
 {
@@ -60,6 +64,23 @@ protected:
         folder_.write("a.hearth", toText(file.span()));
     }
 
+    /// Give the second image random blocks of a format, write the pack, and return the image.
+    ImageRecord writeImage(PackModel& model, const TexelFormatTraits& traits, std::mt19937& random)
+    {
+        ImageRecord& image = model.images[1];
+        image.width = 21;
+        image.height = 10;
+        image.mip_count = 2;
+        image.format = static_cast<uint32_t>(traits.format);
+        mips_.resize(mipBytes(traits, 21, 10) + mipBytes(traits, 10, 5));
+        for (std::byte& byte : mips_)
+            byte = static_cast<std::byte>(random());
+        model.image_data[1] = mips_;
+        const AlignedBytes file = model.bytes();
+        folder_.write("a.hearth", toText(file.span()));
+        return image;
+    }
+
     Status extract(command::TextureExtraction extraction)
     {
         return command::extractTexture(folder_ / "a.hearth", extraction, folder_ / "a.ktx2");
@@ -99,6 +120,60 @@ TEST_F(ExtractTexture, decodesToWhatShadersRead)
         EXPECT_EQ(readLevel(file, 0).substr(4 * i, 4), texel) << i;
     EXPECT_EQ(readLevel(file, 1).size(), 3u * 2 * 4);
     EXPECT_EQ(file.find("KTXswizzle"), std::string::npos);
+}
+
+/// Return channel `at` of an image, as decoders of texels have it: finite halves, or numbers of 16 bits.
+uint16_t readChannel(const import::DecodedImage& image, size_t at)
+{
+    uint16_t channel = 0;
+    if (image.type == import::ChannelType::unorm8)
+        return static_cast<uint16_t>(static_cast<uint16_t>(image.texels[at]) * 257);
+    std::memcpy(&channel, image.texels.data() + 2 * at, sizeof(channel));
+    return channel;
+}
+
+/// Check that an imported image has the finest mip of a pack's, as shaders read it.
+void checkTexels(const import::DecodedImage& image, const ImageRecord& record,
+                 std::span<const std::byte> mips)
+{
+    const TexelFormatTraits& traits = *findTexelFormat(record.format);
+    const bool is_float = traits.coding == TexelCoding::float_value;
+    const std::vector<DecodedTexel> texels = decodeImageMip(record, mips, 0);
+    ASSERT_EQ(image.texels.size(), texels.size() * image.texelBytes());
+    for (size_t i = 0; i < texels.size(); ++i)
+    {
+        const DecodedTexel expected = applySwizzle(texels[i], record.swizzle, is_float ? kHalfOne : 0xFFFF);
+        for (size_t c = 0; c < 4; ++c)
+            if (is_float)
+                ASSERT_EQ(readChannel(image, 4 * i + c), halfFromFloat(floatFromHalf(expected[c]))) << i;
+            else // ASTC is read with 8 bits
+                ASSERT_NEAR(readChannel(image, 4 * i + c), expected[c],
+                            image.type == import::ChannelType::unorm8 ? 128 : 0)
+                    << i;
+    }
+}
+
+TEST_F(ExtractTexture, isReadBackInEveryFormat)
+{
+    PackModel model = smallPack();
+    model.images[1].swizzle[0] = static_cast<uint8_t>(Swizzle::green);
+    model.images[1].swizzle[2] = static_cast<uint8_t>(Swizzle::red);
+    std::mt19937 random(3);
+    size_t count = 0;
+    for (const TexelFormatTraits& traits : detail::kTexelFormats)
+    {
+        if (!isPackFormat(static_cast<uint32_t>(traits.format)))
+            continue;
+        SCOPED_TRACE(traits.name);
+        const ImageRecord record = writeImage(model, traits, random);
+        ASSERT_TRUE(extract({.texture = "1", .is_compressed = count++ % 2 == 1}).ok());
+        const std::string file = folder_.read("a.ktx2");
+        const auto image = import::decodeImage(std::as_bytes(std::span(file)), "a.ktx2", {});
+        ASSERT_TRUE(image.ok()) << formatMessage(image.error());
+        EXPECT_EQ(image->transfer == import::Transfer::srgb, traits.coding == TexelCoding::srgb);
+        ASSERT_NO_FATAL_FAILURE(checkTexels(*image, record, mips_));
+    }
+    EXPECT_EQ(count, 64u);
 }
 
 TEST_F(ExtractTexture, saysTheNearestName)
