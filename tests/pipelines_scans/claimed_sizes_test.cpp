@@ -1,6 +1,6 @@
 // Decodes files of a few bytes whose headers claim much memory.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "tests/pipelines_scans/ktx2_builder.h"
+#include "tests/pipelines_scans/dds_builder.h"
 #include "tests/pipelines_scans/scan_test_tools.h"
 #include "tests/support/limits/peak_memory.h"
 
@@ -158,6 +158,22 @@ Bytes claimingKtx2()
         .file();
 }
 
+Bytes claimingDds()
+{
+    Dds dds = Dds::withDxgi(99, Bytes(64));
+    dds.width = dds.height = kSide;
+    return dds.file();
+}
+
+Bytes claimingKtx2OfZlib()
+{
+    constexpr uint64_t kTexelBytes = uint64_t{4} * kSide * kSide;
+    const Bytes stream = {0x78, 0x9C, 0x63, 0, 0, 0, 1, 0, 1}; // of one byte
+    return Ktx2{
+        .width = kSide, .height = kSide, .scheme = 3, .levels = {stream}, .uncompressed = {kTexelBytes}}
+        .file();
+}
+
 struct SmallImage
 {
     std::string name;
@@ -178,7 +194,10 @@ std::vector<SmallImage> smallImages()
             {"EXR whose text claims 1 GiB", exrWithAttribute("string", kExrClaim, 0)},
             {"EXR whose preview claims 1 GiB", exrWithAttribute("preview", 8, kExrClaim / 4)},
             {"EXR whose list claims 1 GiB", exrWithAttribute("stringvector", 8, kExrClaim)},
-            {"KTX2 whose level claims 256 MiB", claimingKtx2()}};
+            {"KTX2 whose level claims 256 MiB", claimingKtx2()},
+            {"KTX2 whose zlib level claims 256 MiB", claimingKtx2OfZlib()},
+            {"DDS without texels", Dds{.width = kSide, .height = kSide}.file()},
+            {"DDS without blocks", claimingDds()}};
 }
 
 TEST(ClaimedSizes, ofImagesTakeNoMemory)
