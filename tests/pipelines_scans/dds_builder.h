@@ -30,7 +30,7 @@ struct Dds
     uint32_t bits = 32;
     std::array<uint32_t, 4> masks = {0xFF0000, 0xFF00, 0xFF, 0xFF000000};
     uint32_t caps2 = 0;
-    std::optional<Dx10> dx10;
+    std::optional<Dx10> dx10{};
     Bytes texels = Bytes(16);
 
     static Dds withCode(std::string_view name, Bytes texels)

@@ -36,8 +36,8 @@ struct Ktx2
     uint8_t transfer = 0;
     uint8_t flags = 0;
     std::vector<uint8_t> channels = {0, 1, 2, 15};
-    Bytes key_values;
-    Bytes global_data;
+    Bytes key_values{};
+    Bytes global_data{};
     std::vector<Bytes> levels = {Bytes(16)}; // finest first
     std::vector<uint64_t> uncompressed = {16};
 
