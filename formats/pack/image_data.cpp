@@ -24,15 +24,16 @@ Result<std::vector<TexturePieceRecord>> readPieces(const PackView& part, uint32_
     const ChunkEntry* const entry = part.container().find(kChunkImageData, image);
     if (entry == nullptr)
         return Error{Issue::chunk_missing, part.name(), where, ""};
-    const std::span<const std::byte> stored = part.container().stored(*entry);
     std::vector<TexturePieceRecord> records;
+    if (entry->codec != static_cast<uint32_t>(Codec::zstd_frames))
+        return records;
+    const std::span<const std::byte> stored = part.container().stored(*entry);
     uint64_t offset = 0;
     for (const TexturePiece& piece : listTexturePieces(part.images()[image]))
     {
         const std::span<const std::byte> rest = stored.subspan(static_cast<size_t>(offset));
         const size_t size = ZSTD_findFrameCompressedSize(rest.data(), rest.size());
-        if (entry->codec != static_cast<uint32_t>(Codec::zstd_frames) || ZSTD_isError(size) ||
-            !isSingleFrame(rest.first(size), piece.size))
+        if (ZSTD_isError(size) || !isSingleFrame(rest.first(size), piece.size))
             return Error{Issue::chunk_codec, part.name(), where, "its frames are not the image's pieces"};
         records.push_back({.offset = offset,
                            .stored_size = static_cast<uint32_t>(size),

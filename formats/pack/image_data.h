@@ -18,8 +18,8 @@ namespace hearth::formats
 Status addImageData(ContainerWriter& writer, uint32_t index, const ImageRecord& image,
                     std::span<const std::byte> mips);
 
-/// Return the records of the pieces of an image. errors: chunk_missing, chunk_codec if the frames of the
-/// chunk are not the pieces.
+/// Return the records of the pieces of an image; none if its chunk is not in frames.
+/// errors: chunk_missing; chunk_codec if the frames are not the pieces.
 Result<std::vector<TexturePieceRecord>> readPieces(const PackView& part, uint32_t image);
 
 } // namespace hearth::formats

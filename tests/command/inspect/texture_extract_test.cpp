@@ -3,7 +3,7 @@
 #include "pipelines/command/inspect/extract_texture.h"
 
 #include "formats/base/half.h"
-#include "formats/texels/decode_image.h"
+#include "formats/pack/decode_image.h"
 #include "formats/texels/swizzle.h"
 #include "pipelines/import/images/decode.h"
 #include "tests/support/sandbox.h"
