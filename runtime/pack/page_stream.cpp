@@ -50,7 +50,7 @@ PageStream::PageStream(const formats::PackView& view, Residency residency, const
       slot_of_page_(view.pages().size(), kInvalidIndex),
       staging_of_page_(view.pages().size(), kInvalidIndex),
       free_slots_(makeStack(options.slot_count)),
-      free_staging_(makeStack(static_cast<uint32_t>(staging.size() / options.slot_bytes)))
+      staging_slots_(static_cast<uint32_t>(staging.size() / options.slot_bytes))
 {
     for (const uint32_t page : residency_.graph().pinned())
     {
@@ -59,7 +59,6 @@ PageStream::PageStream(const formats::PackView& view, Residency residency, const
         ++statistics_.pages_resident;
     }
     groups_.clearChanges();
-    pending_copies_.reserve(free_staging_.size());
     pending_reads_.reserve(options.residency.max_loads);
     uploads_.reserve(options.residency.max_loads);
     statistics_.budget_bytes = options.residency.budget_bytes;
@@ -69,7 +68,7 @@ PageStream::PageStream(const formats::PackView& view, Residency residency, const
 StreamChanges PageStream::beginFrame(uint64_t serial, uint64_t completed_serial)
 {
     serial_ = serial;
-    freeStaging(completed_serial);
+    staging_slots_.complete(completed_serial);
     takeCompletions(serial);
     const FrameChanges changes = residency_.beginFrame(serial, completed_serial);
     groups_.clearChanges();
@@ -94,16 +93,6 @@ StreamChanges PageStream::beginFrame(uint64_t serial, uint64_t completed_serial)
     return {uploads_, groups_.changes(), changes.failed};
 }
 
-void PageStream::freeStaging(uint64_t completed_serial)
-{
-    const auto end =
-        std::find_if(pending_copies_.begin(), pending_copies_.end(),
-                     [&](const PendingCopy& copying) { return copying.serial > completed_serial; });
-    for (auto copying = pending_copies_.begin(); copying != end; ++copying)
-        free_staging_.push_back(copying->staging_slot);
-    pending_copies_.erase(pending_copies_.begin(), end);
-}
-
 void PageStream::takeCompletions(uint64_t serial)
 {
     uploads_.clear();
@@ -114,12 +103,12 @@ void PageStream::takeCompletions(uint64_t serial)
         if (ok)
         {
             uploads_.push_back({page, slot_of_page_[page], staging_slot});
-            pending_copies_.push_back({staging_slot, serial});
+            staging_slots_.giveBackAfter(staging_slot, serial);
             statistics_.bytes_streamed += view_->pages()[page].size;
         }
         else
         {
-            free_staging_.push_back(staging_slot);
+            staging_slots_.giveBack(staging_slot);
             freeSlot(page);
         }
         residency_.completed(page, ok);
@@ -156,10 +145,10 @@ void PageStream::schedule(uint64_t feedback_serial)
 void PageStream::startReads()
 {
     size_t count = 0;
-    for (; count < pending_reads_.size() && !free_staging_.empty(); ++count)
+    for (; count < pending_reads_.size() && !staging_slots_.isEmpty(); ++count)
     {
         const uint32_t page = pending_reads_[count];
-        staging_of_page_[page] = pop(free_staging_);
+        staging_of_page_[page] = staging_slots_.take();
         ++reads_in_flight_;
         const std::span<std::byte> destination =
             staging_.subspan(size_t{staging_of_page_[page]} * options_.slot_bytes, view_->pages()[page].size);

@@ -6,6 +6,7 @@
 #include "runtime/pack/completion_queue.h"
 #include "runtime/pack/residency.h"
 #include "runtime/pack/resident_groups.h"
+#include "runtime/pack/staging_slots.h"
 
 #include <functional>
 #include <memory>
@@ -113,15 +114,8 @@ public:
     const StreamStatistics& statistics() const { return statistics_; }
 
 private:
-    struct PendingCopy
-    {
-        uint32_t staging_slot = 0;
-        uint64_t serial = 0;
-    };
-
     PageStream(const formats::PackView& view, Residency residency, const PageStreamOptions& options,
                std::span<std::byte> staging);
-    void freeStaging(uint64_t completed_serial);
     void takeCompletions(uint64_t serial);
     void freeSlot(uint32_t page);
     void startReads();
@@ -135,9 +129,9 @@ private:
     std::unique_ptr<CompletionQueue> queue_; // readers keep its address
 
     std::vector<uint32_t> slot_of_page_, staging_of_page_; ///< kInvalidIndex: none
-    std::vector<uint32_t> free_slots_, free_staging_;
-    std::vector<PendingCopy> pending_copies_; ///< ordered by serial
-    std::vector<uint32_t> pending_reads_;     ///< pages to read as soon as staging memory is free, in order
+    std::vector<uint32_t> free_slots_;
+    StagingSlots staging_slots_;
+    std::vector<uint32_t> pending_reads_; ///< pages to read as soon as staging memory is free, in order
     std::vector<PageUpload> uploads_;
     uint32_t reads_in_flight_ = 0;
     uint64_t serial_ = 0;

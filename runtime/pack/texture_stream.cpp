@@ -2,7 +2,6 @@
 #include "runtime/pack/texture_stream.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 namespace hearth::pack
@@ -25,11 +24,10 @@ TextureStream::TextureStream(const formats::PackView& view, TextureGraph graph, 
       staging_(staging),
       graph_(std::move(graph)),
       residency_(std::move(residency)),
+      queue_(std::make_unique<CompletionQueue>(staging.size() / options.slot_bytes)),
+      staging_slots_(static_cast<uint32_t>(staging.size() / options.slot_bytes)),
       staging_of_piece_(view.texturePieces().size(), kInvalidIndex)
 {
-    free_staging_.resize(staging.size() / options.slot_bytes);
-    std::iota(free_staging_.rbegin(), free_staging_.rend(), 0u);
-    queue_ = std::make_unique<CompletionQueue>(free_staging_.size());
     for (uint32_t image = 0; image < view.images().size(); ++image)
     {
         const bool is_streamed = graph_.mipCount(image) > 0;
@@ -41,7 +39,7 @@ TextureStream::TextureStream(const formats::PackView& view, TextureGraph graph, 
 TextureChanges TextureStream::beginFrame(uint64_t serial, uint64_t completed_serial)
 {
     serial_ = serial;
-    freeStaging(completed_serial);
+    staging_slots_.complete(completed_serial);
     takeCompletions();
     endLoads(completed_serial);
     const FrameChanges changes = residency_.beginFrame(serial, lag(completed_serial));
@@ -73,16 +71,6 @@ uint64_t TextureStream::lag(uint64_t completed_serial)
     return lagging_serial_;
 }
 
-void TextureStream::freeStaging(uint64_t completed_serial)
-{
-    const auto end =
-        std::find_if(pending_copies_.begin(), pending_copies_.end(),
-                     [&](const PendingCopy& copying) { return copying.serial > completed_serial; });
-    for (auto copying = pending_copies_.begin(); copying != end; ++copying)
-        free_staging_.push_back(copying->staging_slot);
-    pending_copies_.erase(pending_copies_.begin(), end);
-}
-
 void TextureStream::takeCompletions()
 {
     uploads_.clear();
@@ -100,11 +88,11 @@ void TextureStream::takeCompletions()
         load.is_failed = load.is_failed || !ok;
         if (load.is_failed)
         {
-            free_staging_.push_back(staging_slot);
+            staging_slots_.giveBack(staging_slot);
             continue;
         }
         uploads_.push_back({mip, own, staging_slot});
-        pending_copies_.push_back({staging_slot, serial_});
+        staging_slots_.giveBackAfter(staging_slot, serial_);
         load.copy_serial = serial_;
     }
 }
@@ -186,7 +174,7 @@ void TextureStream::startReads()
 {
     for (Load& load : loads_)
         if (residency_.isResident(graph_.nodes().needs(load.node).front()))
-            while (!load.is_failed && !load.pieces.empty() && !free_staging_.empty())
+            while (!load.is_failed && !load.pieces.empty() && !staging_slots_.isEmpty())
                 startRead(load);
 }
 
@@ -196,8 +184,7 @@ void TextureStream::startRead(Load& load)
     const uint32_t own = load.pieces.back();
     load.pieces.pop_back();
     const uint32_t piece = view_->images()[mip.image].pieces.first + own;
-    const uint32_t slot = free_staging_.back();
-    free_staging_.pop_back();
+    const uint32_t slot = staging_slots_.take();
     staging_of_piece_[piece] = slot;
     ++load.reads;
     ++reads_in_flight_;

@@ -7,6 +7,7 @@
 #include "runtime/pack/completion_queue.h"
 #include "runtime/pack/page_stream.h"
 #include "runtime/pack/residency.h"
+#include "runtime/pack/staging_slots.h"
 #include "runtime/pack/texture_graph.h"
 #include "runtime/pack/texture_requests.h"
 
@@ -95,15 +96,8 @@ private:
         bool is_failed = false;
         uint64_t copy_serial = 0; ///< last frame that copies a piece
     };
-    struct PendingCopy
-    {
-        uint32_t staging_slot;
-        uint64_t serial;
-    };
-
     TextureStream(const formats::PackView& view, TextureGraph graph, Residency residency,
                   const TextureStreamOptions& options, std::span<std::byte> staging);
-    void freeStaging(uint64_t completed_serial);
     void takeCompletions();
     /// Call function(node, priority) for the mips that a view wants of an image.
     template <typename Function>
@@ -123,9 +117,8 @@ private:
 
     std::vector<std::vector<formats::TexturePiece>> pieces_; ///< [image]; empty: it is not streamed
     std::vector<Load> loads_;                                ///< in the order in which they were started
-    std::vector<uint32_t> free_staging_;
-    std::vector<PendingCopy> pending_copies_; ///< ordered by serial
-    std::vector<uint32_t> staging_of_piece_;  ///< by number in the pack
+    StagingSlots staging_slots_;
+    std::vector<uint32_t> staging_of_piece_; ///< by number in the pack
     std::vector<PieceUpload> uploads_;
     std::vector<TextureMip> evicted_, published_, failed_;
     std::vector<uint64_t> frames_; ///< serials, from the last that has completed, or the first
