@@ -36,15 +36,17 @@ struct Stripe
     uint32_t mip;
     uint32_t first_row; ///< of texels
     uint32_t rows;
-    size_t first_byte; ///< in the encoded image
+    size_t first_byte; ///< in all encoded stripes
     size_t bytes;
 };
 
-std::vector<Stripe> listStripes(const PlainImage& image, const TexelFormatTraits& traits, uint32_t mips)
+/// List the stripes of mips [first_mip, end_mip).
+std::vector<Stripe> listStripes(const PlainImage& image, const TexelFormatTraits& traits, uint32_t first_mip,
+                                uint32_t end_mip)
 {
     std::vector<Stripe> stripes;
     size_t next = 0;
-    for (uint32_t mip = 0; mip < mips; ++mip)
+    for (uint32_t mip = first_mip; mip < end_mip; ++mip)
     {
         const MipExtent extent = mipExtent(image.record, mip);
         const uint32_t block_rows = std::max(kStripeTexels / extent.width / traits.block_height, 1u);
@@ -57,6 +59,38 @@ std::vector<Stripe> listStripes(const PlainImage& image, const TexelFormatTraits
         }
     }
     return stripes;
+}
+
+/// Multiply alphas, rounded to 8 bits if the image has no more.
+void scaleAlpha(float scale, bool is_narrow, std::span<DecodedTexel> texels)
+{
+    const float step = is_narrow ? 257 : 1;
+    for (DecodedTexel& texel : texels)
+    {
+        const float scaled = std::min(static_cast<float>(texel[3]) * scale, 65535.0f);
+        texel[3] = static_cast<uint16_t>(std::floor(scaled / step + 0.5f) * step);
+    }
+}
+
+std::vector<std::byte> encodeStripes(const PlainImage& image, const Candidate& candidate, Effort effort,
+                                     std::span<const Stripe> stripes, float alpha_scale)
+{
+    std::vector<std::byte> encoded(stripes.back().first_byte + stripes.back().bytes);
+    tbb::parallel_for(
+        size_t{0}, stripes.size(),
+        [&](size_t i)
+        {
+            const Stripe& stripe = stripes[i];
+            const uint32_t width = mipExtent(image.record, stripe.mip).width;
+            std::vector<DecodedTexel> texels = decodeRows(image, stripe.mip, stripe.first_row, stripe.rows);
+            if (alpha_scale != 1)
+                scaleAlpha(alpha_scale, texelBytes(image.record.format) == 4, texels);
+            const std::vector<std::byte> bytes = encodeTexels(
+                candidate, arrangeChannels(image, candidate, width, stripe.rows, texels), effort);
+            HEARTH_ASSERT(bytes.size() == stripe.bytes);
+            std::ranges::copy(bytes, encoded.begin() + static_cast<ptrdiff_t>(stripe.first_byte));
+        });
+    return encoded;
 }
 
 /// Error of a stripe, with a histogram of those of its texels.
@@ -174,30 +208,22 @@ std::vector<std::byte> encodeTexels(const Candidate& candidate, const StoredTexe
 
 std::vector<std::byte> encodeImage(const PlainImage& image, const Candidate& candidate, Effort effort)
 {
-    const std::vector<Stripe> stripes = listStripes(image, *candidate.traits, image.record.mip_count);
-    std::vector<std::byte> encoded(stripes.back().first_byte + stripes.back().bytes);
-    tbb::parallel_for(
-        size_t{0}, stripes.size(),
-        [&](size_t i)
-        {
-            const Stripe& stripe = stripes[i];
-            const uint32_t width = mipExtent(image.record, stripe.mip).width;
-            const std::vector<std::byte> bytes =
-                encodeTexels(candidate,
-                             arrangeChannels(image, candidate, width, stripe.rows,
-                                             decodeRows(image, stripe.mip, stripe.first_row, stripe.rows)),
-                             effort);
-            HEARTH_ASSERT(bytes.size() == stripe.bytes);
-            std::ranges::copy(bytes, encoded.begin() + static_cast<ptrdiff_t>(stripe.first_byte));
-        });
-    return encoded;
+    return encodeStripes(image, candidate, effort,
+                         listStripes(image, *candidate.traits, 0, image.record.mip_count), 1);
+}
+
+std::vector<std::byte> encodeMip(const PlainImage& image, const Candidate& candidate, Effort effort,
+                                 uint32_t mip, float alpha_scale)
+{
+    return encodeStripes(image, candidate, effort, listStripes(image, *candidate.traits, mip, mip + 1),
+                         alpha_scale);
 }
 
 ImageError measureError(const PlainImage& image, std::span<const SmoothCells> smooth,
                         const Candidate& candidate, std::span<const std::byte> encoded)
 {
     const uint32_t mips = countMeasuredMips(image.record);
-    const std::vector<Stripe> stripes = listStripes(image, *candidate.traits, mips);
+    const std::vector<Stripe> stripes = listStripes(image, *candidate.traits, 0, mips);
     std::vector<StripeError> errors(stripes.size(), makeStripeError(image));
     tbb::parallel_for(size_t{0}, stripes.size(),
                       [&](size_t i)

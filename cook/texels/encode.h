@@ -39,6 +39,10 @@ std::vector<std::byte> encodeTexels(const Candidate& candidate, const StoredTexe
 /// Encode all mips, finest first, tightly packed. Same bytes for any number of threads.
 std::vector<std::byte> encodeImage(const PlainImage& image, const Candidate& candidate, Effort effort);
 
+/// Encode one mip with its alpha multiplied by a scale. Same bytes for any number of threads.
+std::vector<std::byte> encodeMip(const PlainImage& image, const Candidate& candidate, Effort effort,
+                                 uint32_t mip, float alpha_scale);
+
 /// Loss of encoding an image.
 struct ImageError
 {

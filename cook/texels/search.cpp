@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/texels/search.h"
 
+#include "cook/texels/match_coverage.h"
 #include "formats/base/assert.h"
 #include "formats/texels/decode_texels.h"
 #include "formats/texels/plain_decoder.h"
@@ -291,6 +292,7 @@ Encoding encodeForTarget(const PlainImage& image, std::span<const Candidate> can
     const auto encode = [&](const Candidate& candidate)
     {
         Encoding encoding{candidate, encodeImage(image, candidate, effort)};
+        matchCoverage(image, candidate, effort, encoding.texels);
         encoding.error = measureError(image, smooth, candidate, encoding.texels);
         encoding.share = findShare(encoding.error, target);
         return encoding;
