@@ -4,7 +4,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include <array>
+#include <algorithm>
 
 namespace hearth::textures
 {
@@ -12,12 +12,11 @@ namespace hearth::textures
 namespace
 {
 
-/// Texels that one texel of the result covers, with the weight of each. At most three.
+/// Texels that one texel of the result covers, with the weight of each.
 struct Coverage
 {
     uint32_t first = 0;
-    uint32_t count = 0;
-    std::array<float, 4> weights{};
+    std::vector<float> weights{};
 };
 
 /// Compute the coverage of texel `target` of `target_size`: [target, target + 1) * size / target_size. Exact
@@ -26,13 +25,12 @@ Coverage computeCoverage(uint32_t target, uint32_t target_size, uint32_t size)
 {
     const uint64_t start = uint64_t{target} * size;
     const uint64_t end = start + size;
-    Coverage coverage;
-    coverage.first = static_cast<uint32_t>(start / target_size);
+    Coverage coverage{.first = static_cast<uint32_t>(start / target_size)};
     for (uint64_t texel = coverage.first; texel * target_size < end; ++texel)
     {
         const uint64_t overlap =
             std::min(end, (texel + 1) * target_size) - std::max(start, texel * target_size);
-        coverage.weights[coverage.count++] = static_cast<float>(static_cast<double>(overlap) / size);
+        coverage.weights.push_back(static_cast<float>(static_cast<double>(overlap) / size));
     }
     return coverage;
 }
@@ -47,11 +45,12 @@ void addScaled(Float4& sum, const Float4& texel, float weight)
 
 } // namespace
 
-FloatImage halve(uint32_t width, uint32_t height, const RowReader& readRow)
+FloatImage averageAreas(uint32_t width, uint32_t height, const RowReader& readRow, uint32_t target_width,
+                        uint32_t target_height)
 {
     FloatImage result;
-    result.width = std::max(1u, width / 2);
-    result.height = std::max(1u, height / 2);
+    result.width = target_width;
+    result.height = target_height;
     result.texels.resize(size_t{result.width} * result.height);
 
     std::vector<Coverage> columns(result.width);
@@ -66,20 +65,25 @@ FloatImage halve(uint32_t width, uint32_t height, const RowReader& readRow)
         {
             const Coverage lines = computeCoverage(y, result.height, height);
             std::fill(sum.begin(), sum.end(), Float4{});
-            for (uint32_t i = 0; i < lines.count; ++i)
+            for (size_t i = 0; i < lines.weights.size(); ++i)
             {
-                readRow(lines.first + i, source);
+                readRow(lines.first + static_cast<uint32_t>(i), source);
                 for (uint32_t x = 0; x < width; ++x)
                     addScaled(sum[x], source[x], lines.weights[i]);
             }
             const std::span<Float4> out = result.row(y);
             for (uint32_t x = 0; x < result.width; ++x)
-                for (uint32_t i = 0; i < columns[x].count; ++i)
+                for (size_t i = 0; i < columns[x].weights.size(); ++i)
                     addScaled(out[x], sum[columns[x].first + i], columns[x].weights[i]);
         }
     };
     tbb::parallel_for(tbb::blocked_range<uint32_t>(0, result.height), fillRows);
     return result;
+}
+
+FloatImage halve(uint32_t width, uint32_t height, const RowReader& readRow)
+{
+    return averageAreas(width, height, readRow, std::max(1u, width / 2), std::max(1u, height / 2));
 }
 
 } // namespace hearth::textures

@@ -66,7 +66,7 @@ uint32_t fullMipCount(uint32_t width, uint32_t height)
 }
 
 std::vector<std::byte> buildMipChain(const ImageRecord& image, std::vector<std::byte> texels,
-                                     uint32_t max_bits)
+                                     uint32_t max_bits, RoughnessFilter* filter)
 {
     ImageRecord chain = image;
     chain.format = mipFormat(image.format, max_bits);
@@ -98,7 +98,15 @@ std::vector<std::byte> buildMipChain(const ImageRecord& image, std::vector<std::
             keepsCoverage(chain) ? scaleForCoverage(mip, image.alpha_cutoff, coverage) : 1;
         const auto begin = static_cast<size_t>(formats::mipOffset(chain, level));
         const auto end = static_cast<size_t>(formats::mipOffset(chain, level + 1));
-        encodeMip(content, chain.format, mip, alpha_scale, std::span(mips).subspan(begin, end - begin));
+        const std::span<std::byte> out = std::span(mips).subspan(begin, end - begin);
+        if (filter == nullptr)
+        {
+            encodeMip(content, chain.format, mip, alpha_scale, out);
+            continue;
+        }
+        FloatImage widened = mip; // the next mip is made from what this one was before
+        filter->apply(widened);
+        encodeMip(content, chain.format, widened, alpha_scale, out);
     }
     return mips;
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/textures/roughness_filter.h"
 #include "formats/records/scene.h"
 
 #include <cstddef>
@@ -21,8 +22,9 @@ uint32_t fullMipCount(uint32_t width, uint32_t height);
 /// image     width, height, format, flags and alpha_cutoff are read; mip_count is not
 /// texels    width * height texels of that format (asserted)
 /// max_bits  of a channel: see mipFormat()
-/// limits    scratch 16 bytes for each texel of the second and third mip
+/// filter    null: none; else it widens the roughness of all mips but the finest
+/// limits    scratch 16 bytes for each texel of the second and third mip; twice that with a filter
 std::vector<std::byte> buildMipChain(const formats::ImageRecord& image, std::vector<std::byte> texels,
-                                     uint32_t max_bits = 16);
+                                     uint32_t max_bits = 16, RoughnessFilter* filter = nullptr);
 
 } // namespace hearth::textures

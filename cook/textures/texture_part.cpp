@@ -2,6 +2,7 @@
 #include "cook/textures/texture_part.h"
 
 #include "cook/textures/mip_chain.h"
+#include "cook/textures/roughness_uses.h"
 #include "cook/textures/texel_codec.h"
 #include "formats/container/container_reader.h"
 #include "formats/container/container_writer.h"
@@ -89,20 +90,45 @@ ImageStatistics computeStatistics(std::string_view strings, const ImageRecord& i
     return statistics;
 }
 
-/// Add the materials of the import part that use each image.
-Status addUses(const ContainerReader& part, std::string_view strings, std::span<ImageStatistics> statistics)
+/// Materials of an import part.
+struct Materials
 {
-    HEARTH_ASSIGN_OR_RETURN(const Records<MaterialRecord> materials,
-                            part.records<MaterialRecord>(kChunkMaterials));
-    HEARTH_ASSIGN_OR_RETURN(const Records<MaterialLayersRecord> layers,
+    Records<MaterialRecord> records;
+    Records<MaterialLayersRecord> layers;
+};
+
+Result<Materials> readMaterials(const ContainerReader& part)
+{
+    HEARTH_ASSIGN_OR_RETURN(Records<MaterialRecord> records, part.records<MaterialRecord>(kChunkMaterials));
+    HEARTH_ASSIGN_OR_RETURN(Records<MaterialLayersRecord> layers,
                             part.records<MaterialLayersRecord>(kChunkMaterialLayers));
-    const std::span<const MaterialRecord> records(materials.begin(), materials.end());
-    const auto uses = imageUses(records, layers.span(), statistics.size());
+    return Materials{std::move(records), std::move(layers)};
+}
+
+/// Make the mips of a roughness image that lose the normals of its use.
+/// images  of the import part
+Result<std::vector<std::byte>> buildRoughnessMips(const ContainerReader& part,
+                                                  std::span<const ImageRecord> images,
+                                                  const RoughnessUse& use, const ImageRecord& image,
+                                                  std::vector<std::byte> texels, uint32_t max_bits)
+{
+    if (use.normal_image == kInvalidIndex)
+        return buildMipChain(image, std::move(texels), max_bits);
+    const ImageRecord& normals = images[use.normal_image];
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> normal_texels,
+                            readTexels(part, normals, use.normal_image));
+    RoughnessFilter filter({normals, normal_texels, use.normal_scale, use.roughness_factor});
+    return buildMipChain(image, std::move(texels), max_bits, &filter);
+}
+
+/// Add the materials that use each image.
+void addUses(const Materials& materials, std::string_view strings, std::span<ImageStatistics> statistics)
+{
+    const auto uses = imageUses(materials.records.span(), materials.layers.span(), statistics.size());
     for (size_t i = 0; i < statistics.size(); ++i)
         for (const ImageUse& use : uses[i])
             statistics[i].uses.push_back(
-                {readName(strings, records[use.material].name), std::string(use.role)});
-    return success();
+                {readName(strings, materials.records[use.material].name), std::string(use.role)});
 }
 
 /// Add the size of each image in the written part.
@@ -118,7 +144,7 @@ Status addStoredBytes(const std::string& path, std::span<ImageStatistics> statis
 } // namespace
 
 Status cookTextures(const std::string& import_path, const std::string& output_path,
-                    const TextureLimits& limits, std::vector<ImageStatistics>* statistics)
+                    const TextureOptions& options, std::vector<ImageStatistics>* statistics)
 {
     HEARTH_ASSIGN_OR_RETURN(const ContainerReader part, ContainerReader::open(import_path, Check::structure));
     HEARTH_ASSIGN_OR_RETURN(const Records<ImageRecord> sources, part.records<ImageRecord>(kChunkImages));
@@ -129,18 +155,27 @@ Status cookTextures(const std::string& import_path, const std::string& output_pa
     const std::string_view names(reinterpret_cast<const char*>(strings.bytes().data()),
                                  strings.bytes().size());
 
+    HEARTH_ASSIGN_OR_RETURN(const Materials materials, readMaterials(part));
+    std::vector<std::vector<RoughnessUse>> roughness_uses(sources.size());
+    if (options.specular_aa)
+        roughness_uses = listRoughnessUses(materials.records.span(), materials.layers.span(), sources.span());
+
     std::vector<ImageRecord> images(sources.begin(), sources.end());
     for (uint32_t i = 0; i < images.size(); ++i)
     {
         HEARTH_ASSIGN_OR_RETURN(std::vector<std::byte> texels, readTexels(part, images[i], i));
         images[i].mip_count = fullMipCount(images[i].width, images[i].height);
-        const uint32_t format = mipFormat(images[i].format, limits.max_bits);
+        const uint32_t format = mipFormat(images[i].format, options.max_bits);
         const bool is_narrowed = format != images[i].format;
         const std::vector<std::byte> imported =
             is_narrowed && statistics != nullptr ? texels : std::vector<std::byte>();
-        const std::vector<std::byte> chain = buildMipChain(images[i], std::move(texels), limits.max_bits);
+        // an image that several normal maps lie over keeps the mean roughness
+        const RoughnessUse use = roughness_uses[i].size() == 1 ? roughness_uses[i].front() : RoughnessUse{};
+        HEARTH_ASSIGN_OR_RETURN(
+            const std::vector<std::byte> chain,
+            buildRoughnessMips(part, sources.span(), use, images[i], std::move(texels), options.max_bits));
         images[i].format = format;
-        const uint32_t skipped_mips = countTooLargeMips(images[i], limits.max_size);
+        const uint32_t skipped_mips = countTooLargeMips(images[i], options.max_size);
         const ImageRecord kept = withoutMips(images[i], skipped_mips);
         HEARTH_TRY(
             addImageData(writer, i, kept, std::span(chain).subspan(mipOffset(images[i], skipped_mips))));
@@ -152,7 +187,7 @@ Status cookTextures(const std::string& import_path, const std::string& output_pa
     HEARTH_TRY(writer.finish());
     if (statistics == nullptr)
         return success();
-    HEARTH_TRY(addUses(part, names, *statistics));
+    addUses(materials, names, *statistics);
     return addStoredBytes(output_path, *statistics);
 }
 

@@ -21,16 +21,17 @@ struct Arguments
     std::string input;
     std::string output;
     size_t jobs = 0;
-    textures::TextureLimits limits;
+    textures::TextureOptions options;
+    bool keeps_roughness = false;
     std::string statistics;
 };
 
 Status cook(const Arguments& arguments)
 {
     if (arguments.statistics.empty())
-        return textures::cookTextures(arguments.input, arguments.output, arguments.limits);
+        return textures::cookTextures(arguments.input, arguments.output, arguments.options);
     std::vector<textures::ImageStatistics> images;
-    HEARTH_TRY(textures::cookTextures(arguments.input, arguments.output, arguments.limits, &images));
+    HEARTH_TRY(textures::cookTextures(arguments.input, arguments.output, arguments.options, &images));
     const std::string source = arguments.input.substr(arguments.input.rfind('/') + 1); // npos + 1 is 0
     return writeText(arguments.statistics, textures::statisticsJson(source, images));
 }
@@ -49,12 +50,14 @@ int program(int argc, char** argv)
     app.addOption("part", arguments.input, "import part").required();
     app.addOption("-o,--output", arguments.output, "textures part to write").required();
     app.addOption("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
-    app.addOption("--max-size", arguments.limits.max_size,
+    app.addOption("--max-size", arguments.options.max_size,
                   "texels: the longer side of what is kept; finer mips are left out")
         .range(1u, textures::kMaxTextureSize, "UINT");
-    app.addOption("--max-bits", arguments.limits.max_bits,
+    app.addOption("--max-bits", arguments.options.max_bits,
                   "bits of a channel of data and normals that have 16 in the source")
         .choices(kChannelBits, "N");
+    app.addFlag("--no-specular-aa", arguments.keeps_roughness,
+                "do not widen roughness in mips by the normals that the mips of a normal map lose");
     app.addOption("--stats", arguments.statistics,
                   "write statistics of each image as JSON, with its measured error; - is standard output");
     app.setFooter(
@@ -63,6 +66,7 @@ int program(int argc, char** argv)
         "74 I/O");
     if (const std::optional<int> exit_code = app.parse(argc, argv))
         return *exit_code;
+    arguments.options.specular_aa = !arguments.keeps_roughness;
     return run(arguments);
 }
 

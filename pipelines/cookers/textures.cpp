@@ -12,6 +12,17 @@ namespace
 
 using namespace settings;
 
+Setting specularAaSetting()
+{
+    Setting setting =
+        flagSetting("textures.specular_aa",
+                    "roughness rises in mips by the normals that the mips of a normal map lose: distant "
+                    "bumps look rough and do not sparkle",
+                    "");
+    setting.default_text = "true";
+    return setting;
+}
+
 std::vector<Setting> makeTextureSettings()
 {
     return {
@@ -23,7 +34,8 @@ std::vector<Setting> makeTextureSettings()
                            "as in the source", 1, textures::kMaxTextureSize),
                        "--max-texture-size", "TEXELS")),
         choiceSetting("textures.max_bits", "bits of a channel of data and normals that have 16 in the source",
-                      "16", {"8", "16"}, Kind::whole)};
+                      "16", {"8", "16"}, Kind::whole),
+        specularAaSetting()};
 }
 
 Result<Arguments> makeTextureArguments(const Values& values)
@@ -31,6 +43,9 @@ Result<Arguments> makeTextureArguments(const Values& values)
     Arguments arguments;
     addOption(values, "textures.max_size", "--max-size", arguments);
     addOption(values, "textures.max_bits", "--max-bits", arguments);
+    if (const Value* const value = findValue(values, "textures.specular_aa");
+        value != nullptr && value->text == "false")
+        arguments.words.emplace_back("--no-specular-aa");
     return arguments;
 }
 

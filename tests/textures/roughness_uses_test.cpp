@@ -1,0 +1,180 @@
+// Normal maps over roughness images, and the mips that hearth-textures makes of both.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/textures/roughness_uses.h"
+
+#include "cook/textures/mip_chain.h"
+#include "cook/textures/texture_part.h"
+#include "formats/container/container_writer.h"
+#include "tests/support/temporary_folder.h"
+#include "tests/textures/texture_test_images.h"
+
+#include <gtest/gtest.h>
+
+namespace hearth::textures
+{
+
+namespace
+{
+
+using namespace test;
+using namespace formats;
+using hearth::test::TemporaryFolder;
+
+constexpr uint32_t kRoughness = 0, kNormals = 1, kColor = 3;
+
+TextureRef refer(uint32_t image)
+{
+    return {image, 0, 0, 0, 0, {1, 0, 0, 0, 1, 0}};
+}
+
+/// Return a material with a roughness image and a normal map.
+MaterialRecord makeMaterial(uint32_t normal_image = kNormals)
+{
+    MaterialRecord material{};
+    for (TextureRef MaterialRecord::*const field : kMaterialTextureFields)
+        material.*field = refer(kInvalidIndex);
+    material.roughness = 1;
+    material.normal_scale = 1;
+    material.metallic_roughness_texture = refer(kRoughness);
+    material.normal_texture = refer(normal_image);
+    return material;
+}
+
+std::vector<ImageRecord> makeImages()
+{
+    return {makeRecord(16, 16, TexelFormat::rgba8_unorm),
+            makeRecord(32, 16, TexelFormat::rgba8_unorm, kImageNormalMap),
+            makeRecord(16, 16, TexelFormat::rgba8_unorm, kImageNormalMap), makeRecord(16, 16)};
+}
+
+std::vector<RoughnessUse> listUses(std::span<const MaterialRecord> materials,
+                                   std::span<const MaterialLayersRecord> layers = {})
+{
+    const std::vector<ImageRecord> images = makeImages();
+    const auto uses = listRoughnessUses(materials, layers, images);
+    EXPECT_EQ(uses.size(), images.size());
+    for (uint32_t image = 1; image < images.size(); ++image)
+        EXPECT_TRUE(uses[image].empty()) << image;
+    return uses[kRoughness];
+}
+
+TEST(RoughnessUses, materialsWithEqualMapsAndFactorsAreOne)
+{
+    std::vector<MaterialRecord> materials(4, makeMaterial());
+    materials[1].normal_scale = 0.5f;
+    materials[2].normal_texture.nearest = 1;
+    materials[3].roughness = 0.5f;
+    const std::vector<RoughnessUse> uses = listUses(materials);
+    ASSERT_EQ(uses.size(), 3u);
+    EXPECT_EQ(uses[0].normal_image, kNormals);
+    EXPECT_EQ(uses[0].materials, (std::vector<uint32_t>{0, 2}));
+    EXPECT_EQ(uses[1].normal_scale, 0.5f);
+    EXPECT_EQ(uses[2].roughness_factor, 0.5f);
+}
+
+TEST(RoughnessUses, aMapAtAnotherPlaceDoesNotCount)
+{
+    const auto losesNormals = [](const auto& change)
+    {
+        MaterialRecord material = makeMaterial();
+        change(material);
+        const std::vector<RoughnessUse> uses = listUses({&material, 1});
+        EXPECT_EQ(uses.size(), 1u);
+        return uses.front().normal_image != kInvalidIndex;
+    };
+    EXPECT_TRUE(losesNormals([](MaterialRecord&) {}));
+    EXPECT_FALSE(losesNormals([](MaterialRecord& m) { m.normal_texture.uv_set = 1; }));
+    EXPECT_FALSE(losesNormals([](MaterialRecord& m) { m.normal_texture.wrap_u = 2; }));
+    EXPECT_FALSE(losesNormals([](MaterialRecord& m) { m.metallic_roughness_texture.wrap_v = 1; }));
+    EXPECT_FALSE(losesNormals([](MaterialRecord& m) { m.normal_texture.uv_transform[4] = 2; }));
+    EXPECT_FALSE(losesNormals([](MaterialRecord& m) { m.normal_scale = 0; }));
+    EXPECT_FALSE(losesNormals([](MaterialRecord& m) { m.normal_texture = refer(kInvalidIndex); }));
+    EXPECT_FALSE(losesNormals([](MaterialRecord& m) { m.normal_texture = refer(kColor); }));
+}
+
+TEST(RoughnessUses, materialsThatDoNotReadRoughnessDoNotCount)
+{
+    std::vector<MaterialRecord> materials(3, makeMaterial());
+    materials[0].flags = kMaterialUnlit;
+    materials[1].roughness = 0;
+    materials[2].metallic_roughness_texture = refer(kInvalidIndex);
+    materials[2].occlusion_texture = refer(kRoughness);
+    EXPECT_TRUE(listUses(materials).empty());
+    materials.push_back(makeMaterial());
+    EXPECT_EQ(listUses(materials).size(), 1u);
+    MaterialLayersRecord layers = neutralLayers(2);
+    layers.clearcoat_texture = refer(kRoughness);
+    const std::vector<RoughnessUse> uses = listUses(materials, {&layers, 1});
+    ASSERT_EQ(uses.size(), 2u) << "a clear coat reads green, too";
+    EXPECT_EQ(uses[1].normal_image, kInvalidIndex);
+}
+
+class RoughnessPart : public ::testing::Test
+{
+protected:
+    RoughnessPart()
+    {
+        texels.push_back(filled(16, 16, {0, 60, 0, 255}));
+        texels.push_back(randomBytes(32 * 16 * 4, 1));
+        texels.push_back(randomBytes(16 * 16 * 4, 2));
+        texels.push_back(randomBytes(16 * 16 * 4, 3));
+    }
+
+    /// Cook the images with these materials, and return the mips of the roughness.
+    std::vector<std::byte> cook(std::span<const MaterialRecord> materials, const TextureOptions& options = {})
+    {
+        auto writer = ContainerWriter::create(folder.file("in.part"), ContainerKind::part);
+        EXPECT_TRUE(writer.ok());
+        for (uint32_t i = 0; i < texels.size(); ++i)
+            EXPECT_TRUE(
+                writer->addChunk({.type = kChunkImageData, .index = i}, texels[i], 1, Codec::none).ok());
+        EXPECT_TRUE(writer->addRecords<ImageRecord>(kChunkImages, images).ok());
+        EXPECT_TRUE(writer->addRecords<MaterialRecord>(kChunkMaterials, materials).ok());
+        EXPECT_TRUE(writer->finish().ok());
+        const Status status = cookTextures(folder.file("in.part"), folder.file("out.part"), options);
+        EXPECT_TRUE(status.ok()) << (status.ok() ? "" : formatMessage(status.error()));
+        const auto part = ContainerReader::open(folder.file("out.part"));
+        const auto data = part->read(kChunkImageData, kRoughness);
+        return {data->bytes().begin(), data->bytes().end()};
+    }
+
+    std::vector<std::byte> expect(uint32_t normal_image, float scale, float factor)
+    {
+        RoughnessFilter filter({images[normal_image], texels[normal_image], scale, factor});
+        return buildMipChain(images[kRoughness], texels[kRoughness], 16, &filter);
+    }
+
+    const TemporaryFolder folder;
+    const std::vector<ImageRecord> images = makeImages();
+    std::vector<std::vector<std::byte>> texels;
+};
+
+TEST_F(RoughnessPart, isWidenedByTheNormalMapOfItsMaterial)
+{
+    const std::vector<std::byte> plain = buildMipChain(images[kRoughness], texels[kRoughness]);
+    std::vector<MaterialRecord> materials(2, makeMaterial());
+    materials[0].normal_scale = materials[1].normal_scale = 0.5f;
+    EXPECT_EQ(cook(materials), expect(kNormals, 0.5f, 1));
+    EXPECT_NE(cook(materials), plain);
+    EXPECT_EQ(cook(materials, {.specular_aa = false}), plain);
+    materials[0].normal_texture = materials[1].normal_texture = refer(kInvalidIndex);
+    EXPECT_EQ(cook(materials), plain);
+}
+
+TEST_F(RoughnessPart, damagedNormalMapIsAnError)
+{
+    texels[kNormals].resize(8);
+    const MaterialRecord material = makeMaterial();
+    auto writer = ContainerWriter::create(folder.file("in.part"), ContainerKind::part);
+    ASSERT_TRUE(writer.ok());
+    for (uint32_t i = 0; i < 2; ++i)
+        ASSERT_TRUE(writer->addChunk({.type = kChunkImageData, .index = i}, texels[i], 1, Codec::none).ok());
+    ASSERT_TRUE(writer->addRecords<ImageRecord>(kChunkImages, std::span(images).first(2)).ok());
+    ASSERT_TRUE(writer->addRecords<MaterialRecord>(kChunkMaterials, std::span(&material, 1)).ok());
+    ASSERT_TRUE(writer->finish().ok());
+    EXPECT_EQ(cookTextures(folder.file("in.part"), folder.file("out.part")).error().issue, Issue::chunk_size);
+}
+
+} // namespace
+
+} // namespace hearth::textures
