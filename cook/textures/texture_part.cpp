@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/textures/texture_part.h"
 
+#include "cook/textures/fill_colors.h"
 #include "cook/textures/mip_chain.h"
 #include "cook/textures/roughness_uses.h"
 #include "cook/textures/texel_codec.h"
@@ -160,10 +161,15 @@ Status cookTextures(const std::string& import_path, const std::string& output_pa
     if (options.specular_aa)
         roughness_uses = listRoughnessUses(materials.records.span(), materials.layers.span(), sources.span());
 
+    const std::vector<bool> has_hidden_colors =
+        listHiddenColors(materials.records.span(), materials.layers.span(), sources.size());
+
     std::vector<ImageRecord> images(sources.begin(), sources.end());
     for (uint32_t i = 0; i < images.size(); ++i)
     {
         HEARTH_ASSIGN_OR_RETURN(std::vector<std::byte> texels, readTexels(part, images[i], i));
+        if (has_hidden_colors[i] && isSrgb(images[i].format))
+            fillHiddenColors(images[i], texels);
         images[i].mip_count = fullMipCount(images[i].width, images[i].height);
         const uint32_t format = mipFormat(images[i].format, options.max_bits);
         const bool is_narrowed = format != images[i].format;
