@@ -177,19 +177,6 @@ Candidate layOutWithoutCompression(const PlainImage& image, const ChannelSplit& 
 
 } // namespace
 
-bool addFamily(std::string_view name, Families& families)
-{
-    if (name == "astc")
-        families.astc = true;
-    else if (name == "etc2")
-        families.etc2 = true;
-    else if (name == "bc")
-        families.bc = true;
-    else
-        return false;
-    return true;
-}
-
 std::vector<Candidate> listCandidates(const PlainImage& image, const Families& families)
 {
     std::vector<Candidate> candidates;

@@ -3,10 +3,10 @@
 #pragma once
 
 #include "cook/texels/plain_image.h"
+#include "cook/texels/rules/families.h"
 
 #include <array>
 #include <span>
-#include <string_view>
 #include <vector>
 
 namespace hearth::texels
@@ -27,17 +27,6 @@ struct Candidate
         return 8.0 * traits->block_bytes / (1.0 * traits->block_width * traits->block_height);
     }
 };
-
-/// Families of formats that a target reads, besides plain ones.
-struct Families
-{
-    bool astc = false;
-    bool etc2 = false;
-    bool bc = false;
-};
-
-/// Parse the name of a family: "astc", "etc2" or "bc". False if there is none of that name.
-bool addFamily(std::string_view name, Families& families);
 
 /// Return the compressed formats that an image may get, from the fewest bits a texel on; the last is the one
 /// without compression, with 8 bits of each channel that is read, or RGB9E5 for light. Channels that are 0 or

@@ -3,6 +3,7 @@
 
 #include "cook/texels/match_coverage.h"
 #include "formats/base/assert.h"
+#include "formats/pack/image_error.h"
 #include "formats/texels/decode_texels.h"
 #include "formats/texels/plain_decoder.h"
 
@@ -203,15 +204,25 @@ public:
           candidates_(candidates),
           target_(target),
           effort_(effort),
-          shares_(candidates.size())
+          errors_(candidates.size())
     {
     }
 
     double get(size_t i)
     {
-        if (!shares_[i])
-            shares_[i] = findShare(estimateError(image_, smooth_, candidates_[i], effort_), target_);
-        return *shares_[i];
+        if (!errors_[i])
+            errors_[i] = estimateError(image_, smooth_, candidates_[i], effort_);
+        return findShare(*errors_[i], target_);
+    }
+
+    /// Return the estimates that were asked for, in the order of the candidates.
+    std::vector<CandidateError> list() const
+    {
+        std::vector<CandidateError> list;
+        for (size_t i = 0; i < errors_.size(); ++i)
+            if (errors_[i])
+                list.push_back({candidates_[i], *errors_[i]});
+        return list;
     }
 
 private:
@@ -220,7 +231,7 @@ private:
     std::span<const Candidate> candidates_;
     Target target_;
     Effort effort_;
-    std::vector<std::optional<double>> shares_;
+    std::vector<std::optional<ImageError>> errors_;
 };
 
 /// Return the cheapest candidate whose estimate holds the target; their number if none does. Errors mostly
@@ -238,6 +249,44 @@ size_t findCheapest(Estimates& estimates, size_t count)
             low = middle + 1;
     }
     return low > 1 && holds(low - 2) ? low - 2 : low;
+}
+
+/// Encode, measure what is lost, and compare it with the target.
+Encoding encodeMeasured(const PlainImage& image, std::span<const SmoothCells> smooth,
+                        const Candidate& candidate, const Target& target, Effort effort)
+{
+    Encoding encoding{.candidate = candidate, .texels = encodeImage(image, candidate, effort)};
+    matchCoverage(image, candidate, effort, encoding.texels);
+    encoding.error = measureError(image, smooth, candidate, encoding.texels);
+    encoding.share = findShare(encoding.error, target);
+    return encoding;
+}
+
+/// Encode in the cheapest compressed candidate that holds the target, or in the nearest; see encodeForTarget.
+Encoding encodeBest(const PlainImage& image, std::span<const Candidate> candidates, const Target& target,
+                    Effort effort, bool strict, std::span<const SmoothCells> smooth, Estimates& estimates)
+{
+    const size_t compressed = candidates.size() - 1;
+    std::optional<Encoding> best;
+    for (size_t i = findCheapest(estimates, compressed); i < compressed; ++i)
+    {
+        if (estimates.get(i) > 1)
+            continue;
+        Encoding encoding = encodeMeasured(image, smooth, candidates[i], target, effort);
+        if (encoding.share <= 1)
+            return encoding;
+        if (!best || encoding.share < best->share)
+            best = std::move(encoding);
+    }
+    if (strict)
+        return encodeMeasured(image, smooth, candidates.back(), target, effort);
+    if (best)
+        return *std::move(best);
+    size_t best_estimate = compressed - 1;
+    for (size_t i = compressed - std::min(compressed, kLastResorts); i < compressed; ++i)
+        if (estimates.get(i) < estimates.get(best_estimate))
+            best_estimate = i;
+    return encodeMeasured(image, smooth, candidates[best_estimate], target, effort);
 }
 
 } // namespace
@@ -258,6 +307,13 @@ Target findTarget(ImageRole role, Effort quality)
     default:
         return {decibels(pick(34, 36.5, 42)), decibels(pick(48, 53, 55))};
     }
+}
+
+Target makeTarget(ImageRole role, Effort quality, double wanted)
+{
+    const Target usual = findTarget(role, quality);
+    const double error = restoreImageError(role, wanted);
+    return {error, usual.smooth * (error / usual.error)};
 }
 
 ImageError estimateError(const PlainImage& image, std::span<const SmoothCells> smooth,
@@ -287,40 +343,19 @@ Encoding encodeForTarget(const PlainImage& image, std::span<const Candidate> can
                          Effort effort, bool strict)
 {
     HEARTH_ASSERT(!candidates.empty());
-    const size_t compressed = candidates.size() - 1;
     const std::vector<SmoothCells> smooth = findSmoothCells(image);
-    const auto encode = [&](const Candidate& candidate)
-    {
-        Encoding encoding{candidate, encodeImage(image, candidate, effort)};
-        matchCoverage(image, candidate, effort, encoding.texels);
-        encoding.error = measureError(image, smooth, candidate, encoding.texels);
-        encoding.share = findShare(encoding.error, target);
-        return encoding;
-    };
-    if (compressed == 0)
-        return encode(candidates.back());
+    if (candidates.size() == 1)
+        return encodeMeasured(image, smooth, candidates.back(), target, effort);
+    Estimates estimates(image, smooth, candidates.first(candidates.size() - 1), target, effort);
+    Encoding encoding = encodeBest(image, candidates, target, effort, strict, smooth, estimates);
+    encoding.estimates = estimates.list();
+    return encoding;
+}
 
-    Estimates estimates(image, smooth, candidates.first(compressed), target, effort);
-    std::optional<Encoding> best;
-    for (size_t i = findCheapest(estimates, compressed); i < compressed; ++i)
-    {
-        if (estimates.get(i) > 1)
-            continue;
-        Encoding encoding = encode(candidates[i]);
-        if (encoding.share <= 1)
-            return encoding;
-        if (!best || encoding.share < best->share)
-            best = std::move(encoding);
-    }
-    if (strict)
-        return encode(candidates.back());
-    if (best)
-        return *std::move(best);
-    size_t best_estimate = compressed - 1;
-    for (size_t i = compressed - std::min(compressed, kLastResorts); i < compressed; ++i)
-        if (estimates.get(i) < estimates.get(best_estimate))
-            best_estimate = i;
-    return encode(candidates[best_estimate]);
+Encoding encodeCandidate(const PlainImage& image, const Candidate& candidate, const Target& target,
+                         Effort effort)
+{
+    return encodeMeasured(image, findSmoothCells(image), candidate, target, effort);
 }
 
 } // namespace hearth::texels

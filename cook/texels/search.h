@@ -23,10 +23,21 @@ struct Target
 /// over four mips, of which the coarser ones lose more: the finest mip is 1 to 5 dB better.
 Target findTarget(formats::ImageRole role, Effort quality);
 
+/// Return a target that a person sets for all texels, in the unit of the role (imageErrorUnit). That of smooth
+/// texels stays as far from it, in decibels, as in findTarget.
+Target makeTarget(formats::ImageRole role, Effort quality, double wanted);
+
 /// Estimate the error of an image in the format of a candidate, and of its smooth texels, from some of its
 /// blocks, spread evenly: 256 to 1024 of mip 0, 64 to 256 of each other mip that counts.
 ImageError estimateError(const PlainImage& image, std::span<const SmoothCells> smooth,
                          const Candidate& candidate, Effort effort);
+
+/// Error of a candidate, estimated or measured.
+struct CandidateError
+{
+    Candidate candidate{};
+    ImageError error{};
+};
 
 struct Encoding
 {
@@ -34,6 +45,7 @@ struct Encoding
     std::vector<std::byte> texels{}; ///< as encodeImage
     ImageError error{};
     double share = 0; ///< larger part of its target that an error takes; at most 1 if it holds the target
+    std::vector<CandidateError> estimates{}; ///< of the candidates that the search looked at
 };
 
 /// Encode an image in the cheapest candidate that holds the target over the measured mips; where none does,
@@ -41,5 +53,9 @@ struct Encoding
 /// candidates  as listCandidates: ascending by bytes, the plain one last
 Encoding encodeForTarget(const PlainImage& image, std::span<const Candidate> candidates, const Target& target,
                          Effort effort, bool strict);
+
+/// Encode an image in the format of a candidate, whether it holds the target or not.
+Encoding encodeCandidate(const PlainImage& image, const Candidate& candidate, const Target& target,
+                         Effort effort);
 
 } // namespace hearth::texels

@@ -21,6 +21,22 @@ Json errorJson(ImageRole role, double error)
             {std::string(imageErrorUnit(role)), std::isfinite(converted) ? Json(converted) : Json(nullptr)}};
 }
 
+/// Return the candidates that the search looked at, by bytes on the GPU.
+Json estimatesJson(const ImageResult& image, ImageRole role)
+{
+    Json list = Json::array();
+    for (const CandidateError& estimate : image.estimates)
+    {
+        ImageRecord record = image.record;
+        record.format = static_cast<uint32_t>(estimate.candidate.traits->format);
+        list.push_back({{"format", std::string(estimate.candidate.traits->name)},
+                        {"bytes", mipOffset(record, record.mip_count)},
+                        {"error", errorJson(role, estimate.error.error)},
+                        {"error_smooth", errorJson(role, estimate.error.smooth)}});
+    }
+    return list;
+}
+
 Json imageJson(const ImageResult& image, size_t index)
 {
     const auto role = static_cast<ImageRole>(image.record.role);
@@ -38,7 +54,9 @@ Json imageJson(const ImageResult& image, size_t index)
             {"error_smooth", errorJson(role, double{image.record.error_smooth})},
             {"coverage_error", image.record.coverage_error},
             {"target", errorJson(role, image.target)},
-            {"holds_target", image.holds_target}};
+            {"holds_target", image.holds_target},
+            {"reason", image.reason == FormatReason::rule ? "rule" : "target"},
+            {"estimates", estimatesJson(image, role)}};
 }
 
 } // namespace

@@ -5,7 +5,12 @@
 #include "formats/container/container_reader.h"
 #include "formats/container/container_writer.h"
 #include "formats/pack/image_data.h"
+#include "formats/pack/image_error.h"
 #include "formats/pack/pack_check.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace hearth::texels
 {
@@ -54,6 +59,87 @@ ImageRecord describe(const PlainImage& image, const Encoding& encoding)
     return record;
 }
 
+/// Format or error that an image shall have.
+struct Request
+{
+    std::vector<Candidate> candidates{}; ///< as listCandidates; one if a rule names a format
+    Target target{};
+    Effort effort = Effort::normal;
+    FormatReason reason = FormatReason::target;
+};
+
+/// Ranges of targets in the units of roles: what lies beyond is meant for another role.
+struct TargetRange
+{
+    double low;
+    double high;
+};
+
+TargetRange targetRange(ImageRole role)
+{
+    if (role == ImageRole::normal)
+        return {0.1, 45};
+    return role == ImageRole::light ? TargetRange{0.001, 4} : TargetRange{10, 100};
+}
+
+/// Keep the candidate that a rule names. errors: `error` with the formats that suit the image
+Status keepNamed(const PlainImage& image, const TextureChoice& choice, Error error,
+                 std::vector<Candidate>& candidates)
+{
+    const auto found = std::ranges::find_if(candidates, [&](const Candidate& candidate)
+                                            { return matchesFormat(choice.format, *candidate.traits); });
+    if (found != candidates.end())
+    {
+        candidates = {*found};
+        return success();
+    }
+    std::vector<std::string_view> names;
+    for (const Candidate& candidate : candidates)
+        names.push_back(candidate.traits->name);
+    error.detail = fmt::format("\"{}\" does not suit role {} with families {}; suitable are {}",
+                               choice.format, imageRoleName(static_cast<uint32_t>(image.role)),
+                               familiesText(*choice.families), fmt::join(names, ", "));
+    return error;
+}
+
+/// Resolve the rules for an image. errors: `error` with a detail, where a rule does not suit the image
+Result<Request> makeRequest(const PlainImage& image, const TexelOptions& options, const std::string& name,
+                            Error error)
+{
+    const TextureChoice choice = resolveChoice(
+        options.rules, {.quality = options.quality, .families = options.families}, image.role, name);
+    Request request{.candidates = listCandidates(image, *choice.families), .effort = *choice.quality};
+    request.target = findTarget(image.role, request.effort);
+    if (choice.target)
+    {
+        const auto [low, high] = targetRange(image.role);
+        if (*choice.target < low || *choice.target > high)
+        {
+            error.detail = fmt::format("target {} is not between {} and {}: it is in {} for role {}",
+                                       *choice.target, low, high,
+                                       image.role == ImageRole::normal  ? "degrees"
+                                       : image.role == ImageRole::light ? "stops"
+                                                                        : "decibels",
+                                       imageRoleName(static_cast<uint32_t>(image.role)));
+            return error;
+        }
+        request.target = makeTarget(image.role, request.effort, *choice.target);
+    }
+    if (!choice.format.empty())
+    {
+        HEARTH_TRY(keepNamed(image, choice, std::move(error), request.candidates));
+        request.reason = FormatReason::rule;
+    }
+    return request;
+}
+
+Encoding encodeRequest(const PlainImage& image, const Request& request, bool strict)
+{
+    if (request.reason == FormatReason::rule)
+        return encodeCandidate(image, request.candidates.front(), request.target, request.effort);
+    return encodeForTarget(image, request.candidates, request.target, request.effort, strict);
+}
+
 /// Add the size of each image in the written part.
 Status addStoredBytes(const std::string& path, std::span<ImageResult> results)
 {
@@ -92,15 +178,20 @@ Status cookTexels(const std::string& import_path, const std::string& textures_pa
         image.role = reads.role;
         image.channels = reads.channels;
 
-        const Target target = findTarget(image.role, options.quality);
-        const Encoding encoding = encodeForTarget(image, listCandidates(image, options.families), target,
-                                                  options.quality, options.strict);
+        const std::string name(import_part.text(image.record.name));
+        HEARTH_ASSIGN_OR_RETURN(
+            const Request request,
+            makeRequest(image, options, name,
+                        {Issue::texture_rule, import_path, fmt::format("image {} \"{}\"", i, name), ""}));
+        const Encoding encoding = encodeRequest(image, request, options.strict);
         records.push_back(describe(image, encoding));
         HEARTH_TRY(addImageData(writer, i, records.back(), encoding.texels));
-        results.push_back({.name = std::string(import_part.text(image.record.name)),
+        results.push_back({.name = name,
                            .record = records.back(),
-                           .target = target.error,
+                           .target = request.target.error,
                            .holds_target = encoding.share <= 1,
+                           .reason = request.reason,
+                           .estimates = encoding.estimates,
                            .bytes = encoding.texels.size()});
     }
     HEARTH_TRY(writer.addRecords<ImageRecord>(kChunkImages, records));

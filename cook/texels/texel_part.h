@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/texels/rules/texture_rules.h"
 #include "cook/texels/search.h"
 #include "formats/base/result.h"
 
@@ -16,6 +17,14 @@ struct TexelOptions
     Families families{};
     Effort quality = Effort::normal; ///< target of error and effort of the encoders
     bool strict = false;             ///< an image that misses its target is not compressed
+    TextureRules rules{};            ///< exceptions by role and by name
+};
+
+/// Reason why an image has its format.
+enum class FormatReason : uint8_t
+{
+    target, ///< it has the fewest bytes of those that hold the target, or is the nearest to it
+    rule,   ///< a rule names it
 };
 
 /// Result of encoding an image, for people and scripts.
@@ -25,8 +34,10 @@ struct ImageResult
     formats::ImageRecord record{};
     double target = 0; ///< in the unit of combineMips
     bool holds_target = true;
-    uint64_t bytes = 0;        ///< of all mips
-    uint64_t stored_bytes = 0; ///< in the file
+    FormatReason reason = FormatReason::target;
+    std::vector<CandidateError> estimates{}; ///< as Encoding::estimates
+    uint64_t bytes = 0;                      ///< of all mips
+    uint64_t stored_bytes = 0;               ///< in the file
 };
 
 /// Read the materials of the import part and the plain mips of the textures part, and write images of the
@@ -34,7 +45,8 @@ struct ImageResult
 /// number of threads.
 ///
 /// results  one for each image
-/// errors: those of ContainerReader; meaning_reference where the parts are not of one source; cannot_write
+/// errors: those of ContainerReader; meaning_reference where the parts are not of one source; texture_rule
+/// where a rule does not suit an image; cannot_write
 Status cookTexels(const std::string& import_path, const std::string& textures_path,
                   const std::string& output_path, const TexelOptions& options,
                   std::vector<ImageResult>& results);

@@ -15,8 +15,6 @@ namespace
 
 using namespace hearth;
 
-const std::vector<std::string> kQualities{"draft", "normal", "high"}; // in the order of texels::Effort
-
 struct Arguments
 {
     std::string import_part;
@@ -26,6 +24,7 @@ struct Arguments
     std::vector<std::string> families;
     std::string quality = "normal";
     bool strict = false;
+    std::vector<std::string> rules; ///< lines of TOML
     std::string statistics;
 };
 
@@ -38,8 +37,11 @@ Result<texels::TexelOptions> parseOptions(const Arguments& arguments)
         if (!texels::addFamily(name, options.families))
             return Error{Issue::usage, arguments.import_part, "--family",
                          "\"" + name + "\" is none of astc, etc2, bc"};
-    const auto quality = std::ranges::find(kQualities, arguments.quality);
-    options.quality = static_cast<texels::Effort>(quality - kQualities.begin());
+    options.quality = *texels::parseEffort(arguments.quality);
+    std::string rules;
+    for (const std::string& rule : arguments.rules)
+        rules += rule + "\n";
+    HEARTH_ASSIGN_OR_RETURN(options.rules, texels::parseTextureRules(rules, "--set"));
     return options;
 }
 
@@ -49,7 +51,7 @@ void warnOfMisses(const Arguments& arguments, std::span<const texels::ImageResul
     {
         const texels::ImageResult& image = results[i];
         const auto role = static_cast<formats::ImageRole>(image.record.role);
-        if (image.holds_target)
+        if (image.holds_target || image.reason != texels::FormatReason::target)
             continue;
         const std::string detail = formats::imageErrorText(role, double{image.record.error}) + " as " +
                                    std::string(formats::texelFormatName(image.record.format)) +
@@ -94,14 +96,18 @@ int program(int argc, char** argv)
                   "formats that the target reads: astc, etc2 or bc; may be repeated. Default: astc and etc2");
     app.addOption("--quality", arguments.quality,
                   "target of error, and effort: draft 34 dB, normal 36.5, high 42 for colours")
-        .choices(kQualities, "QUALITY");
+        .choices({texels::effortNames().begin(), texels::effortNames().end()}, "QUALITY");
     app.addFlag("--strict", arguments.strict, "do not compress an image that misses its target");
+    app.addOption("--set", arguments.rules,
+                  "KEY=VALUE: rules by role or name, as textures.role=[{role=\"normal\",target=2}] or "
+                  "textures.image=[{name=\"ui_*\",format=\"plain\"}]")
+        .oneValueEach();
     app.addOption("--stats", arguments.statistics,
                   "write statistics of each image as JSON, with its measured error; - is standard output");
     app.setFooter(
         "Example: hearth-texels scene.import.part scene.textures.part -o scene.texels.part --family astc\n"
         "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot write, "
-        "74 I/O");
+        "74 I/O, 78 wrong settings");
     if (const std::optional<int> exit_code = app.parse(argc, argv))
         return *exit_code;
     return run(arguments);

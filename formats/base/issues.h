@@ -91,6 +91,8 @@ enum class IssueClass : uint8_t
       "convert the image to PNG, or to EXR if it has floats")                                                \
     X(texture_target, 1309, warning, "no compressed format keeps a texture's error below its target",        \
       "set textures.strict to keep it plain, or a lower textures.quality")                                   \
+    X(texture_rule, 1310, config, "a rule for textures does not suit a texture",                             \
+      "name a format of the message, or set families or target in the rule that matches")                    \
     X(dropped, 1400, warning, "a part of the source is not kept", "")                                        \
     X(degraded, 1401, warning, "a part of the source is drawn in a simpler way", "")                         \
     X(repaired, 1402, warning, "a part of the source was repaired", "")                                      \
@@ -116,6 +118,8 @@ enum class IssueClass : uint8_t
       "a pattern starts at the folder of hearth.toml and matches sources, not their textures")               \
     X(lod_repeated, 1514, warning, "two files are the same level of detail",                                 \
       "rename one, or list the levels in a rule of hearth.toml: import.lods")                                \
+    X(texture_unmatched, 1515, warning, "a rule for textures matches no texture",                            \
+      "hearth inspect prints the names of textures")                                                         \
     X(camera_path, 1600, malformed, "a camera path is not valid",                                            \
       "write a camera a line: PX,PY,PZ,TX,TY,TZ,FOV")                                                        \
     X(table_rows, 1601, malformed, "rows of numbers are not as they should be",                              \

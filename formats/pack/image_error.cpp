@@ -26,6 +26,13 @@ double convertImageError(ImageRole role, double error)
     return role == ImageRole::light ? error : -20 * std::log10(error);
 }
 
+double restoreImageError(ImageRole role, double converted)
+{
+    if (role == ImageRole::normal)
+        return converted * std::numbers::pi / 180;
+    return role == ImageRole::light ? converted : std::pow(10.0, -converted / 20);
+}
+
 std::string imageErrorText(ImageRole role, double error)
 {
     if (error == 0)

@@ -19,6 +19,9 @@ std::string_view imageErrorUnit(ImageRole role);
 /// Convert an error of ImageRecord to that unit. Infinite for a peak signal-to-noise ratio without error.
 double convertImageError(ImageRole role, double error);
 
+/// Convert an error in that unit to one of ImageRecord: the inverse of convertImageError.
+double restoreImageError(ImageRole role, double converted);
+
 /// Return the text of an error: "40.2 dB", "2.10 degrees", "0.040 stops", or "exact".
 std::string imageErrorText(ImageRole role, double error);
 

@@ -1,9 +1,10 @@
 // hearth-texels: compression of textures for the target.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/texels/rules/texture_rules.h"
 #include "pipelines/cookers/words.h"
 #include "pipelines/settings/make_setting.h"
 
-#include <algorithm>
+#include <fmt/format.h>
 
 namespace hearth::cookers
 {
@@ -13,40 +14,84 @@ namespace
 
 using namespace settings;
 
-constexpr std::string_view kFamilies[] = {"astc", "etc2", "bc"};
-
 Status checkFamilies(const std::string& key, const std::string& text)
 {
+    texels::Families families;
     for (const std::string& family : valueTexts({text, ""}))
-        if (std::ranges::find(kFamilies, family) == std::end(kFamilies))
+        if (!texels::addFamily(family, families))
             return Error{Issue::profile_value, "", key, "\"" + family + "\" is none of astc, etc2, bc"};
     return success();
 }
 
-Setting familiesSetting()
+Setting familiesSetting(std::string key, std::string_view default_text)
 {
-    Setting setting{.key = "textures.families",
+    Setting setting{.key = std::move(key),
                     .kind = Kind::texts,
                     .what =
                         "compressed formats that the target reads: astc, etc2 (with EAC), bc; an empty list "
                         "keeps plain texels",
-                    .default_text = "[\"astc\", \"etc2\"]"};
+                    .default_text = default_text};
     setting.check = checkFamilies;
+    return setting;
+}
+
+Setting qualitySetting(std::string key, std::string_view default_text)
+{
+    return choiceSetting(std::move(key),
+                         "error that textures may have, and effort: colours at least 34, 36.5 or 42 dB, "
+                         "normals at most 4.5, 3 or 2 degrees",
+                         default_text, {"draft", "normal", "high"});
+}
+
+/// Check rules with the cooker's own parser: members may contradict each other.
+Status checkRules(const std::string& key, const std::string& text)
+{
+    const auto rules = texels::parseTextureRules(key + "=" + text, "");
+    if (rules.ok())
+        return success();
+    Error error = rules.error();
+    error.detail = fmt::format("{}: {}", error.where, error.detail);
+    return error;
+}
+
+/// Make a setting with rules for textures.
+/// first  member that says which textures a rule is for
+Setting rulesSetting(std::string key, std::string_view what, Setting first)
+{
+    Setting setting = tablesSetting(
+        std::move(key), what, "",
+        {asRequired(std::move(first)),
+         numberSetting(
+             "target",
+             "error of these textures: decibels, at least, of colours and data; degrees, at most, of "
+             "normals; stops of light",
+             "as quality says", 0, 100),
+         qualitySetting("quality", "textures.quality"),
+         familiesSetting("families", "textures.families"),
+         {"format", Kind::text,
+          "format of these textures, whatever its error: as hearth inspect prints it, without its last part "
+          "if need be (astc-6x6, bc7), or plain",
+          ""}});
+    setting.check = checkRules;
     return setting;
 }
 
 std::vector<Setting> makeTexelSettings()
 {
     return {
-        familiesSetting(),
+        familiesSetting("textures.families", "[\"astc\", \"etc2\"]"),
         withSaving("draft encodes faster",
-                   withOption(choiceSetting("textures.quality",
-                                            "error that textures may have, and effort: colours at least 34, "
-                                            "36.5 or 42 dB, normals at most 4.5, 3 or 2 degrees",
-                                            "normal", {"draft", "normal", "high"}),
-                              "--texture-quality", "QUALITY")),
+                   withOption(qualitySetting("textures.quality", "normal"), "--texture-quality", "QUALITY")),
         flagSetting("textures.strict", "a texture that misses its error in all formats is not compressed",
-                    "")};
+                    ""),
+        rulesSetting("textures.role", "rules for textures of a role: the first of that role holds",
+                     choiceSetting("role", "role of the textures", "",
+                                   {"color", "cutout", "emissive", "data", "normal", "light"})),
+        rulesSetting(
+            "textures.image",
+            "rules for textures by name, over those by role: the first whose name matches holds",
+            {"name", Kind::text,
+             "textures whose name, or whose file's name, this pattern matches; * and ? are wildcards", ""})};
 }
 
 Result<Arguments> makeTexelArguments(const Values& values)
@@ -55,6 +100,8 @@ Result<Arguments> makeTexelArguments(const Values& values)
     addOption(values, "textures.families", "--family", arguments);
     addOption(values, "textures.quality", "--quality", arguments);
     addFlag(values, "textures.strict", "--strict", arguments);
+    for (const char* key : {"textures.role", "textures.image"})
+        addAssignment(values, key, arguments);
     return arguments;
 }
 

@@ -24,6 +24,12 @@ void addFlag(const Values& values, std::string_view key, const std::string& opti
         arguments.words.push_back(option);
 }
 
+void addAssignment(const Values& values, std::string_view key, Arguments& arguments)
+{
+    if (const Value* value = settings::findValue(values, key); value != nullptr)
+        arguments.words.insert(arguments.words.end(), {"--set", std::string(key) + "=" + value->text});
+}
+
 void addAssignments(const Values& values, std::string_view group, Arguments& arguments)
 {
     for (const auto& [key, value] : values)

@@ -23,6 +23,9 @@ void addOption(const settings::Values& values, std::string_view key, const std::
 void addFlag(const settings::Values& values, std::string_view key, const std::string& option,
              Arguments& arguments);
 
+/// Append "--set KEY=VALUE" for a setting; nothing where it is not set.
+void addAssignment(const settings::Values& values, std::string_view key, Arguments& arguments);
+
 /// Append "--set KEY=VALUE" for all settings of a group.
 void addAssignments(const settings::Values& values, std::string_view group, Arguments& arguments);
 

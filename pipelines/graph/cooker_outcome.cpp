@@ -15,7 +15,7 @@ namespace
 /// True for the exit codes by which a cooker reports an error; any other nonzero code is a defect.
 bool isErrorCode(int code)
 {
-    return code == 2 || code == 65 || code == 66 || code == 70 || code == 73 || code == 74;
+    return code == 2 || code == 65 || code == 66 || code == 70 || code == 73 || code == 74 || code == 78;
 }
 
 /// Describe the crash of a child; its last line of output helps to find the defect.

@@ -25,6 +25,11 @@ textures.max_size = 1024
 textures.max_bits = 8
 bricks.memory = "10M"
 
+# Devices of OpenGL ES 3.0, which need not know ASTC.
+[profile.gles3]
+inherits = "mobile-low"
+textures.families = ["etc2"]
+
 # Memory to spare: textures as they are up to 4096, and more rays.
 [profile.desktop]
 textures.families = ["bc"]

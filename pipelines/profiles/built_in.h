@@ -7,7 +7,7 @@
 namespace hearth::profiles
 {
 
-/// Return the built-in profiles "mobile-high", "mobile-low" and "desktop" as a file of settings.
+/// Return the built-in profiles "mobile-high", "mobile-low", "gles3" and "desktop" as a file of settings.
 const ConfigFile& builtInProfiles();
 
 /// Return the text of that file.

@@ -27,8 +27,8 @@ std::vector<Setting> makeCommandSettings()
 {
     std::vector<Setting> settings{
         withVariable(withOption({"profile", Kind::text,
-                                 "how far sources are cooked down: mobile-high, mobile-low, desktop, one "
-                                 "of hearth.toml, or a TOML file",
+                                 "how far sources are cooked down: mobile-high, mobile-low, gles3, desktop, "
+                                 "one of hearth.toml, or a TOML file",
                                  "none: each cooker's defaults"},
                                 "-p,--profile", "NAME"),
                      "HEARTH_PROFILE"),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/profiles/config_file.h"
 
-#include "cook/clusters/program/profile.h"
+#include "cook/tools/name_pattern.h"
 #include "pipelines/cookers/registry.h"
 #include "pipelines/profiles/command_settings.h"
 #include "pipelines/settings/toml_value.h"
@@ -195,7 +195,7 @@ Result<TomlNode> parseRoot(std::string_view text, const std::string& path)
 
 bool Rule::appliesTo(std::string_view profile) const
 {
-    return in_profile.empty() || clusters::matchesPattern(in_profile, profile);
+    return in_profile.empty() || tools::matchesPattern(in_profile, profile);
 }
 
 Result<ConfigFile> parseConfig(std::string_view text, const std::string& path, bool has_rules)

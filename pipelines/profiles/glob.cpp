@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/profiles/glob.h"
 
-#include "cook/clusters/program/profile.h"
+#include "cook/tools/name_pattern.h"
 
 #include <vector>
 
@@ -41,7 +41,7 @@ bool matchesPath(std::string_view pattern, std::string_view path)
             any = w++;
             any_end = n;
         }
-        else if (w < pattern_names.size() && clusters::matchesPattern(pattern_names[w], names[n]))
+        else if (w < pattern_names.size() && tools::matchesPattern(pattern_names[w], names[n]))
         {
             ++w;
             ++n;

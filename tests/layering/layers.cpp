@@ -60,9 +60,10 @@ const std::vector<Layer>& layers()
         {"cook/texels/blocks", {}},
         {"cook/texels/bc", {"formats", "cook/texels/blocks"}},
         {"cook/texels/etc2", {"formats", "cook/texels/blocks"}},
+        {"cook/texels/rules", {"formats", "cook/tools", "cook/texels/blocks"}},
         {"cook/texels",
          {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/texels/blocks", "cook/texels/bc",
-          "cook/texels/etc2"}},
+          "cook/texels/etc2", "cook/texels/rules"}},
 
         {"cook/clusters/core", {"formats", "cook/mesh", "cook/animation_bounds"}},
         {"cook/clusters/partition", {"formats", "cook/mesh", "cook/clusters/core"}},
@@ -121,12 +122,12 @@ const std::vector<Layer>& layers()
         {"pipelines/cache", {"formats", "cook/tools"}},
         {"pipelines/settings", {"formats", "cook/json", "cook/tools", "pipelines/cache"}},
         {"pipelines/cookers",
-         {"formats", "cook/textures", "cook/clusters/core", "cook/clusters/program", "pipelines/settings"}},
+         {"formats", "cook/textures", "cook/clusters/core", "cook/clusters/program", "cook/texels/rules",
+          "pipelines/settings"}},
         {"pipelines/graph",
          {"formats", "cook/json", "cook/tools", "pipelines/cache", "pipelines/settings",
           "pipelines/cookers"}},
-        {"pipelines/profiles",
-         {"formats", "cook/clusters/program", "pipelines/settings", "pipelines/cookers"}},
+        {"pipelines/profiles", {"formats", "cook/tools", "pipelines/settings", "pipelines/cookers"}},
         {"pipelines/farm",
          {"formats", "cook/json", "cook/tools", "pipelines/cache", "pipelines/cookers", "pipelines/graph",
           "pipelines/profiles"}},
@@ -252,8 +253,8 @@ const std::vector<Library>& libraries()
         {"gtest/", {}, true},
         {"gmock/", {}, true},
         {"benchmark/", {}, true},
-        {"CGAL/", {}},             // checks distances, in tests
-        {"EGL/", {}},              // with the next two: decodes ETC2 as an oracle, in tests
+        {"CGAL/", {}}, // checks distances, in tests
+        {"EGL/", {}},  // with the next two: decodes ETC2 as an oracle, in tests
         {"GLES2/", {}},
         {"GLES3/", {}},
         {"OpenMesh/", {}},         // counts boundary loops, in tests

@@ -247,12 +247,13 @@ TEST(ProfileSettings, eachSaysWhatItIs)
         }
 }
 
-TEST(BuiltIn, hasTheThreeProfiles)
+TEST(BuiltIn, hasTheFourProfiles)
 {
-    ASSERT_EQ(builtInProfiles().profiles.size(), 3u);
+    ASSERT_EQ(builtInProfiles().profiles.size(), 4u);
     EXPECT_EQ(builtInProfiles().profiles[0].name, "desktop");
-    EXPECT_EQ(builtInProfiles().profiles[1].name, "mobile-high");
-    EXPECT_EQ(builtInProfiles().profiles[2].name, "mobile-low");
+    EXPECT_EQ(builtInProfiles().profiles[1].name, "gles3");
+    EXPECT_EQ(builtInProfiles().profiles[2].name, "mobile-high");
+    EXPECT_EQ(builtInProfiles().profiles[3].name, "mobile-low");
 }
 
 } // namespace hearth::profiles

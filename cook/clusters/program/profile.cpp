@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/program/profile.h"
 
+#include "cook/tools/name_pattern.h"
 #include "cook/tools/toml.h"
 #include "formats/base/nearest_match.h"
 #include "formats/base/regular_file.h"
@@ -284,8 +285,9 @@ Config resolveConfig(const Profile& profile, std::string_view mesh_name,
     apply(profile.settings, config);
     Reduction& reduction = config.reduction;
     reduction.curve = profile.levels;
-    const auto rule = std::find_if(profile.meshes.begin(), profile.meshes.end(),
-                                   [&](const MeshRule& r) { return matchesPattern(r.name, mesh_name); });
+    const auto rule =
+        std::find_if(profile.meshes.begin(), profile.meshes.end(),
+                     [&](const MeshRule& r) { return tools::matchesPattern(r.name, mesh_name); });
     if (rule != profile.meshes.end())
     {
         apply(rule->settings, config);
@@ -294,43 +296,13 @@ Config resolveConfig(const Profile& profile, std::string_view mesh_name,
     }
     for (uint32_t m = 0; m < material_names.size(); ++m)
     {
-        const auto own =
-            std::find_if(profile.materials.begin(), profile.materials.end(),
-                         [&](const MaterialRule& r) { return matchesPattern(r.name, material_names[m]); });
+        const auto own = std::find_if(profile.materials.begin(), profile.materials.end(),
+                                      [&](const MaterialRule& r)
+                                      { return tools::matchesPattern(r.name, material_names[m]); });
         if (own != profile.materials.end())
             reduction.curve_of_material[m] = own->levels;
     }
     return config;
-}
-
-bool matchesPattern(std::string_view pattern, std::string_view text)
-{
-    // after a mismatch, the last * takes one character more: earlier ones need no retry
-    size_t p = 0;
-    size_t t = 0;
-    size_t star = std::string_view::npos;
-    size_t star_end = 0;
-    while (t < text.size())
-    {
-        if (p < pattern.size() && pattern[p] == '*')
-        {
-            star = p++;
-            star_end = t;
-        }
-        else if (p < pattern.size() && (pattern[p] == '?' || pattern[p] == text[t]))
-        {
-            ++p;
-            ++t;
-        }
-        else if (star != std::string_view::npos)
-        {
-            p = star + 1;
-            t = ++star_end;
-        }
-        else
-            return false;
-    }
-    return pattern.find_first_not_of('*', p) == std::string_view::npos;
 }
 
 } // namespace hearth::clusters

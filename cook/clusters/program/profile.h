@@ -61,7 +61,4 @@ Result<Profile> parseProfile(std::string_view text, const std::string& name);
 Config resolveConfig(const Profile& profile, std::string_view mesh_name,
                      std::span<const std::string> material_names);
 
-/// True if all of `text` matches: * stands for any characters, ? for one, everything else for itself.
-bool matchesPattern(std::string_view pattern, std::string_view text);
-
 } // namespace hearth::clusters

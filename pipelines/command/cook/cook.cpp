@@ -13,6 +13,7 @@
 #include "pipelines/command/cook/depfile.h"
 #include "pipelines/command/cook/dry_run.h"
 #include "pipelines/command/cook/render_progress.h"
+#include "pipelines/command/cook/unmatched_textures.h"
 #include "pipelines/command/shell/event_log.h"
 #include "pipelines/command/shell/messages.h"
 #include "pipelines/command/shell/name_list.h"
@@ -201,6 +202,27 @@ void warnOfOutliers(const graph::Graph& graph, const graph::Executor& executor, 
             printMessages({outlier.warning}, were_printed, options, listeners.summary);
         recorder.report().source_warnings[in_pack[outlier.source]] = outlier.warning;
     }
+}
+
+/// Warn of rules for textures that match none.
+void warnOfUnmatchedTextures(const graph::Graph& graph, graph::Executor& executor, const CookOptions& options,
+                             Listeners& listeners)
+{
+    const auto hasRules = [](const settings::Values& values)
+    { return settings::findValue(values, "textures.image") != nullptr; };
+    if (std::ranges::none_of(options.values_of_source, hasRules))
+        return;
+    std::vector<std::optional<std::string>> statistics(options.sources.size());
+    for (size_t i = 0; i < graph.actions.size(); ++i)
+    {
+        const graph::Action& action = graph.actions[i];
+        const Outcome ending = executor.outcomes()[i].ending;
+        if (action.cooker == "texels" && (ending == Outcome::cooked || ending == Outcome::cached))
+            statistics[action.source] = executor.readOutput(i, 1);
+    }
+    for (const Error& warning : findUnmatchedTextures(options, statistics))
+        listeners.fatal_warnings +=
+            printMessages({formatMessage(warning)}, false, options, listeners.summary);
 }
 
 /// Print how many sources have failed, if the cook has several. Actions that depend on a failed one are no
@@ -436,7 +458,10 @@ void cookGraph(graph::Graph& graph, CookState* state, const CookOptions& options
     const bool interrupted = !executor.run(old_pack_hash);
     clearBar();
     if (!interrupted && executor.hasPack())
+    {
         warnOfOutliers(graph, executor, options, state, listeners, recorder);
+        warnOfUnmatchedTextures(graph, executor, options, listeners);
+    }
     if (!interrupted && hasSummary(options))
         for (const std::string& line : listeners.summary.lines())
             printMessage(line);

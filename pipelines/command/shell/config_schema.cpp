@@ -115,7 +115,7 @@ std::string configSchema()
     Json profile = groupSchemas(false);
     profile["inherits"] = text;
     profile["inherits"]["description"] =
-        "the name of another profile: mobile-high, mobile-low and desktop are built in";
+        "the name of another profile: mobile-high, mobile-low, gles3 and desktop are built in";
     Json rule = groupSchemas(true);
     rule["match"] = text;
     rule["match"]["description"] = "which sources, by their path from here: * in a name, ** for any folders";

@@ -1,6 +1,7 @@
 // Tests profiles: their contents, and the errors for invalid ones.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/program/profile.h"
+#include "cook/tools/name_pattern.h"
 #include "tests/support/temporary_folder.h"
 
 #include <gtest/gtest.h>
@@ -200,7 +201,7 @@ TEST_F(ProfileFile, refusesWhatIsNotToml)
 
 TEST(MatchesPattern, knowsItsWildcards)
 {
-    using clusters::matchesPattern;
+    using tools::matchesPattern;
     EXPECT_TRUE(matchesPattern("rock", "rock"));
     EXPECT_FALSE(matchesPattern("rock", "Rock"));
     EXPECT_FALSE(matchesPattern("rock", "rocks"));
