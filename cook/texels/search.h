@@ -23,8 +23,8 @@ struct Target
 /// over four mips, of which the coarser ones lose more: the finest mip is 1 to 5 dB better.
 Target findTarget(formats::ImageRole role, Effort quality);
 
-/// Return a target that a person sets for all texels, in the unit of the role (imageErrorUnit). That of smooth
-/// texels stays as far from it, in decibels, as in findTarget.
+/// Return a target that a person sets for all texels, in the unit of the role (imageErrorUnit). That of
+/// smooth texels stays as far from it, in decibels, as in findTarget.
 Target makeTarget(formats::ImageRole role, Effort quality, double wanted);
 
 /// Estimate the error of an image in the format of a candidate, and of its smooth texels, from some of its

@@ -37,35 +37,55 @@ Json estimatesJson(const ImageResult& image, ImageRole role)
     return list;
 }
 
-Json imageJson(const ImageResult& image, size_t index)
+/// Return the place of the pictures of an image in the sheet, and what their brightest colour stands for.
+Json pictureJson(const TexelResults& results, const ImageResult& image)
 {
+    const SheetPlace place = findSheetPlace(*image.picture);
+    const Picture& thumbnail = results.pictures[*image.picture].thumbnail;
     const auto role = static_cast<ImageRole>(image.record.role);
-    return {{"index", index},
-            {"name", image.name},
-            {"width", image.record.width},
-            {"height", image.record.height},
-            {"mips", image.record.mip_count},
-            {"format", std::string(texelFormatName(image.record.format))},
-            {"role", std::string(imageRoleName(image.record.role))},
-            {"bytes", image.bytes},
-            {"bytes_stored", image.stored_bytes},
-            {"error", errorJson(role, double{image.record.error})},
-            {"error_p999", errorJson(role, double{image.record.error_p999})},
-            {"error_smooth", errorJson(role, double{image.record.error_smooth})},
-            {"coverage_error", image.record.coverage_error},
-            {"target", errorJson(role, image.target)},
-            {"holds_target", image.holds_target},
-            {"reason", image.reason == FormatReason::rule ? "rule" : "target"},
-            {"estimates", estimatesJson(image, role)}};
+    return {{"x", place.x},
+            {"y", place.y},
+            {"error_x", place.x + kPictureSide},
+            {"width", thumbnail.width},
+            {"height", thumbnail.height},
+            {"brightest", errorJson(role, kPictureScale * double{image.record.error})}};
+}
+
+Json imageJson(const TexelResults& results, size_t index)
+{
+    const ImageResult& image = results.images[index];
+    const auto role = static_cast<ImageRole>(image.record.role);
+    Json json{
+        {"index", index},
+        {"name", image.name},
+        {"width", image.record.width},
+        {"height", image.record.height},
+        {"mips", image.record.mip_count},
+        {"format", std::string(texelFormatName(image.record.format))},
+        {"role", std::string(imageRoleName(image.record.role))},
+        {"bytes", image.bytes},
+        {"bytes_stored", image.stored_bytes},
+        {"error", errorJson(role, double{image.record.error})},
+        {"error_p999", errorJson(role, double{image.record.error_p999})},
+        {"error_smooth", errorJson(role, double{image.record.error_smooth})},
+        {"coverage_error", image.record.coverage_error},
+        {"target", errorJson(role, image.target.error)},
+        {"target_smooth", std::isfinite(image.target.smooth) ? errorJson(role, image.target.smooth) : Json()},
+        {"holds_target", image.holds_target},
+        {"reason", image.reason == FormatReason::rule ? "rule" : "target"},
+        {"estimates", estimatesJson(image, role)}};
+    if (image.picture)
+        json["picture"] = pictureJson(results, image);
+    return json;
 }
 
 } // namespace
 
-std::string statisticsJson(const std::string& source, std::span<const ImageResult> results)
+std::string statisticsJson(const std::string& source, const TexelResults& results)
 {
     Json json{{"schema", "hearth.texels/1"}, {"source", source}, {"images", Json::array()}};
-    for (size_t i = 0; i < results.size(); ++i)
-        json["images"].push_back(imageJson(results[i], i));
+    for (size_t i = 0; i < results.images.size(); ++i)
+        json["images"].push_back(imageJson(results, i));
     return json.dump(2) + "\n";
 }
 

@@ -11,6 +11,8 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <functional>
+#include <numeric>
 
 namespace hearth::texels
 {
@@ -140,6 +142,20 @@ Encoding encodeRequest(const PlainImage& image, const Request& request, bool str
     return encodeForTarget(image, request.candidates, request.target, request.effort, strict);
 }
 
+/// Select the images that pictures are drawn of: the largest.
+std::vector<bool> selectPictured(std::span<const ImageRecord> images, const TexelOptions& options)
+{
+    std::vector<bool> selected(images.size(), false);
+    std::vector<size_t> order(options.draws_pictures ? images.size() : 0);
+    std::iota(order.begin(), order.end(), size_t{0});
+    std::ranges::stable_sort(order, std::ranges::greater{},
+                             [&](size_t i) { return uint64_t{images[i].width} * images[i].height; });
+    order.resize(std::min(order.size(), kMaxPictures));
+    for (const size_t i : order)
+        selected[i] = true;
+    return selected;
+}
+
 /// Add the size of each image in the written part.
 Status addStoredBytes(const std::string& path, std::span<ImageResult> results)
 {
@@ -153,8 +169,7 @@ Status addStoredBytes(const std::string& path, std::span<ImageResult> results)
 } // namespace
 
 Status cookTexels(const std::string& import_path, const std::string& textures_path,
-                  const std::string& output_path, const TexelOptions& options,
-                  std::vector<ImageResult>& results)
+                  const std::string& output_path, const TexelOptions& options, TexelResults& results)
 {
     HEARTH_ASSIGN_OR_RETURN(const PackView import_part, openPart(import_path));
     HEARTH_ASSIGN_OR_RETURN(const PackView textures, openPart(textures_path));
@@ -169,6 +184,7 @@ Status cookTexels(const std::string& import_path, const std::string& textures_pa
     HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer,
                             ContainerWriter::create(output_path, ContainerKind::part));
     std::vector<ImageRecord> records;
+    const std::vector<bool> pictured = selectPictured(textures.images(), options);
     for (uint32_t i = 0; i < count; ++i)
     {
         HEARTH_ASSIGN_OR_RETURN(const ChunkData data, textures.imageData(i));
@@ -186,17 +202,22 @@ Status cookTexels(const std::string& import_path, const std::string& textures_pa
         const Encoding encoding = encodeRequest(image, request, options.strict);
         records.push_back(describe(image, encoding));
         HEARTH_TRY(addImageData(writer, i, records.back(), encoding.texels));
-        results.push_back({.name = name,
-                           .record = records.back(),
-                           .target = request.target.error,
-                           .holds_target = encoding.share <= 1,
-                           .reason = request.reason,
-                           .estimates = encoding.estimates,
-                           .bytes = encoding.texels.size()});
+        results.images.push_back({.name = name,
+                                  .record = records.back(),
+                                  .target = request.target,
+                                  .holds_target = encoding.share <= 1,
+                                  .reason = request.reason,
+                                  .estimates = encoding.estimates,
+                                  .bytes = encoding.texels.size()});
+        if (pictured[i])
+        {
+            results.images.back().picture = results.pictures.size();
+            results.pictures.push_back(drawPictures(image, encoding));
+        }
     }
     HEARTH_TRY(writer.addRecords<ImageRecord>(kChunkImages, records));
     HEARTH_TRY(writer.finish());
-    return addStoredBytes(output_path, results);
+    return addStoredBytes(output_path, results.images);
 }
 
 } // namespace hearth::texels

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/texels/picture.h"
 #include "cook/texels/rules/texture_rules.h"
 #include "cook/texels/search.h"
 #include "formats/base/result.h"
@@ -12,12 +13,16 @@
 namespace hearth::texels
 {
 
+/// Number of images of a source that have pictures in a report: as many as a page shows without weight.
+inline constexpr size_t kMaxPictures = 64;
+
 struct TexelOptions
 {
     Families families{};
     Effort quality = Effort::normal; ///< target of error and effort of the encoders
     bool strict = false;             ///< an image that misses its target is not compressed
     TextureRules rules{};            ///< exceptions by role and by name
+    bool draws_pictures = false;     ///< pictures of the largest images, at most kMaxPictures
 };
 
 /// Reason why an image has its format.
@@ -32,26 +37,33 @@ struct ImageResult
 {
     std::string name;
     formats::ImageRecord record{};
-    double target = 0; ///< in the unit of combineMips
+    Target target{};
     bool holds_target = true;
     FormatReason reason = FormatReason::target;
     std::vector<CandidateError> estimates{}; ///< as Encoding::estimates
+    std::optional<size_t> picture{};         ///< its number among the pictures
     uint64_t bytes = 0;                      ///< of all mips
     uint64_t stored_bytes = 0;               ///< in the file
+};
+
+/// Results of encoding the images of a source.
+struct TexelResults
+{
+    std::vector<ImageResult> images{};
+    std::vector<PicturePair> pictures{};
 };
 
 /// Read the materials of the import part and the plain mips of the textures part, and write images of the
 /// same numbers and names in the formats of the target. One image is in memory at a time. Same bytes for any
 /// number of threads.
 ///
-/// results  one for each image
+/// results  of each image
 /// errors: those of ContainerReader; meaning_reference where the parts are not of one source; texture_rule
 /// where a rule does not suit an image; cannot_write
 Status cookTexels(const std::string& import_path, const std::string& textures_path,
-                  const std::string& output_path, const TexelOptions& options,
-                  std::vector<ImageResult>& results);
+                  const std::string& output_path, const TexelOptions& options, TexelResults& results);
 
 /// Return JSON text with the schema "hearth.texels/1". `source` is the name of the input.
-std::string statisticsJson(const std::string& source, std::span<const ImageResult> results);
+std::string statisticsJson(const std::string& source, const TexelResults& results);
 
 } // namespace hearth::texels

@@ -4,6 +4,7 @@
 #include "cook/command_line/thread_limit.h"
 #include "cook/texels/texel_part.h"
 #include "cook/tools/batch.h"
+#include "cook/tools/png.h"
 #include "formats/base/atomic_file.h"
 #include "formats/base/program.h"
 #include "formats/pack/image_error.h"
@@ -26,11 +27,12 @@ struct Arguments
     bool strict = false;
     std::vector<std::string> rules; ///< lines of TOML
     std::string statistics;
+    std::string image;
 };
 
 Result<texels::TexelOptions> parseOptions(const Arguments& arguments)
 {
-    texels::TexelOptions options{.strict = arguments.strict};
+    texels::TexelOptions options{.strict = arguments.strict, .draws_pictures = !arguments.image.empty()};
     if (arguments.families.empty())
         options.families = {.astc = true, .etc2 = true};
     for (const std::string& name : arguments.families)
@@ -55,20 +57,33 @@ void warnOfMisses(const Arguments& arguments, std::span<const texels::ImageResul
             continue;
         const std::string detail = formats::imageErrorText(role, double{image.record.error}) + " as " +
                                    std::string(formats::texelFormatName(image.record.format)) +
-                                   ", the target is " + formats::imageErrorText(role, image.target);
+                                   ", the target is " + formats::imageErrorText(role, image.target.error);
         const Error warning{Issue::texture_target, arguments.import_part,
                             "image " + std::to_string(i) + " \"" + image.name + "\"", detail};
         std::fprintf(stderr, "%s\n", formatMessage(warning).c_str());
     }
 }
 
+/// Write the pictures of the images into one PNG; a black pixel where there are none.
+Status writeSheet(const std::string& path, const std::vector<texels::PicturePair>& pictures)
+{
+    const texels::Picture sheet =
+        pictures.empty() ? texels::Picture{1, 1, {{0, 0, 0}}} : texels::drawSheet(pictures);
+    HEARTH_ASSIGN_OR_RETURN(AtomicFile file, AtomicFile::create(path));
+    file.write(tools::encodePng(sheet.width, sheet.height, 3,
+                                {sheet.pixels.front().data(), sheet.pixels.size() * 3}));
+    return file.finish();
+}
+
 Status cook(const Arguments& arguments)
 {
     HEARTH_ASSIGN_OR_RETURN(const texels::TexelOptions options, parseOptions(arguments));
-    std::vector<texels::ImageResult> results;
+    texels::TexelResults results;
     HEARTH_TRY(texels::cookTexels(arguments.import_part, arguments.textures_part, arguments.output, options,
                                   results));
-    warnOfMisses(arguments, results);
+    warnOfMisses(arguments, results.images);
+    if (!arguments.image.empty())
+        HEARTH_TRY(writeSheet(arguments.image, results.pictures));
     if (arguments.statistics.empty())
         return success();
     const std::string source =
@@ -104,6 +119,8 @@ int program(int argc, char** argv)
         .oneValueEach();
     app.addOption("--stats", arguments.statistics,
                   "write statistics of each image as JSON, with its measured error; - is standard output");
+    app.addOption("--image", arguments.image,
+                  "write a PNG with thumbnails of the largest images, each beside its error");
     app.setFooter(
         "Example: hearth-texels scene.import.part scene.textures.part -o scene.texels.part --family astc\n"
         "Exit codes: 0 done, 2 usage, 65 malformed input, 66 input missing, 70 internal, 73 cannot write, "

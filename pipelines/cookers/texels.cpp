@@ -114,6 +114,7 @@ Cooker describeTexels()
             .reads = {"import", "textures"},
             .replaces = "textures",
             .has_statistics = true,
+            .image_option = "--image",
             .settings = makeTexelSettings(),
             .makeArguments = makeTexelArguments,
             .cost = {32 * kMiB, 4.5, 1}};

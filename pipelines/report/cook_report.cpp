@@ -168,6 +168,11 @@ Json messagesJson(const CookReport& cook, const Asset& asset, const Json& import
     return messages;
 }
 
+std::string pngUri(const std::string& png)
+{
+    return "data:image/png;base64," + base64(png);
+}
+
 Json visibilityJson(const CookReport& cook, size_t action)
 {
     Json json = parseStatistics(cook, action);
@@ -175,7 +180,7 @@ Json visibilityJson(const CookReport& cook, size_t action)
         return json;
     json.erase("source");
     if (const auto image = cook.images.find(action); image != cook.images.end())
-        json["image"] = "data:image/png;base64," + base64(image->second);
+        json["image"] = pngUri(image->second);
     return json;
 }
 
@@ -196,8 +201,10 @@ Json texturesJson(Json textures, const Json& texels)
         const Json& encoded = texels[i];
         for (const char* key : {"format", "bytes", "bytes_stored"})
             textures[i][key] = encoded[key];
-        for (const char* key : {"role", "error", "error_p999", "error_smooth", "coverage_error", "target", "holds_target"})
-            textures[i]["encoding"][key] = encoded[key];
+        for (const char* key : {"role", "error", "error_p999", "error_smooth", "coverage_error", "target",
+                                "target_smooth", "holds_target", "reason", "estimates", "picture"})
+            if (encoded.contains(key))
+                textures[i]["encoding"][key] = encoded[key];
     }
     return textures;
 }
@@ -260,6 +267,8 @@ Json assetJson(const CookReport& cook, const Asset& asset)
         json["clusters"] = {{"meshes", listMember(clusters, "meshes")},
                             {"totals", clusters.value("totals", Json::object())}};
     json["textures"] = textures;
+    if (const auto sheet = cook.images.find(findAction("texels")); sheet != cook.images.end())
+        json["texture_pictures"] = pngUri(sheet->second);
     if (const size_t action = findAction("visibility"); action != graph::kNoAction)
         json["visibility"] = visibilityJson(cook, action);
     json["messages"] = messagesJson(cook, asset, import_report);

@@ -31,7 +31,7 @@ std::string reportPage(const std::string& data, const std::string& images)
     std::string script = "'use strict';\n";
     for (const std::string_view file :
          {page_files::dom_js, page_files::table_js, page_files::treemap_js, page_files::curves_js,
-          page_files::timeline_js, page_files::sections_js, page_files::report_js})
+          page_files::rates_js, page_files::timeline_js, page_files::sections_js, page_files::report_js})
         script += file;
     std::string page(page_files::report_html);
     const auto put = [&](std::string_view mark, const std::string& text)

@@ -70,25 +70,59 @@ Json usesRow(const Json& texture)
     return uses;
 }
 
-/// Return a row: name, asset, width, height, mips, format, content, bytes in the file, bytes in memory, RMS
-/// and PSNR of the stored texture, PSNR of half the size, whether that was measured, whether it is a
-/// placeholder, uses
+/// Return an error of an encoding in the unit of its role; null: exact, or there is no target.
+Json convertedError(const Json& encoding, const char* key)
+{
+    const Json error = encoding.value(key, Json());
+    for (const char* unit : {"psnr_db", "degrees", "stops"})
+        if (error.is_object() && error.contains(unit))
+            return error[unit];
+    return {};
+}
+
+/// Return what the encoding of a texture has lost, and what the search looked at: role, error, error of
+/// 99.9 % of the texels, of smooth areas, their targets, whether they are held, reason of the format, place of
+/// the pictures, error of their brightest colour, and candidates (format, bytes, error, of smooth areas).
+/// Null where nothing was encoded.
+Json encodingRow(const Json& texture)
+{
+    const Json encoding = texture.value("encoding", Json());
+    if (!encoding.is_object())
+        return {};
+    const Json picture = encoding.value("picture", Json::object());
+    Json place = Json::array();
+    for (const char* key : {"x", "y", "error_x", "width", "height"})
+        if (picture.contains(key))
+            place.push_back(picture[key]);
+    Json candidates = Json::array();
+    for (const Json& candidate : getElements(encoding, "estimates"))
+        candidates.push_back(
+            Json::array({candidate.at("format"), candidate.at("bytes"), convertedError(candidate, "error"),
+                         convertedError(candidate, "error_smooth")}));
+    return Json::array({encoding.value("role", ""), convertedError(encoding, "error"),
+                        convertedError(encoding, "error_p999"), convertedError(encoding, "error_smooth"),
+                        convertedError(encoding, "target"), convertedError(encoding, "target_smooth"),
+                        encoding.value("holds_target", true), encoding.value("reason", ""), place,
+                        convertedError(picture, "brightest"), candidates});
+}
+
+/// Return a row: name, asset, width, height, mips, format, content, bytes in the file, bytes in memory, PSNR
+/// of half the size, whether that was measured, whether it is a placeholder, encoding, uses
 Json textureRow(const Json& texture, size_t asset)
 {
     return Json::array({texture.value("name", ""), asset, texture.value("width", 0),
                         texture.value("height", 0), texture.value("mips", 0), texture.value("format", ""),
                         texture.value("content", ""), texture.value("bytes_stored", uint64_t{0}),
-                        texture.value("bytes", uint64_t{0}),
-                        texture.value("error", Json::object()).value("rms", 0.0), getPsnr(texture, "error"),
-                        getPsnr(texture, "half_size_error"), texture.contains("half_size_error"),
-                        texture.value("placeholder", false), usesRow(texture)});
+                        texture.value("bytes", uint64_t{0}), getPsnr(texture, "half_size_error"),
+                        texture.contains("half_size_error"), texture.value("placeholder", false),
+                        encodingRow(texture), usesRow(texture)});
 }
 
 Json makeAsset(const Json& asset)
 {
     Json slim;
     for (const char* key : {"source", "state", "seconds", "cpu_seconds", "peak_rss_bytes", "bytes_in", "key",
-                            "sha256", "why", "sizes", "messages", "dropped"})
+                            "sha256", "why", "sizes", "messages", "dropped", "texture_pictures"})
         if (asset.contains(key))
             slim[key] = asset[key];
     slim["stages"] = Json::array();

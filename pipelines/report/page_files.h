@@ -13,6 +13,7 @@ extern const std::string_view dom_js;
 extern const std::string_view table_js;
 extern const std::string_view treemap_js;
 extern const std::string_view curves_js;
+extern const std::string_view rates_js;
 extern const std::string_view timeline_js;
 extern const std::string_view sections_js;
 extern const std::string_view report_js;

@@ -227,7 +227,7 @@ const std::vector<Library>& libraries()
         {"stddef.h", {"runtime/c/"}, true},        // hearth.h is C
         {"stdint.h", {"runtime/c/"}, true},
         {"png.h",
-         {"pipelines/import/images/", "cook/visibility/scene/", "runtime/viewer/compare/",
+         {"pipelines/import/images/", "cook/tools/", "runtime/viewer/compare/",
           "sample_assets/shapes/"}},
         {"zlib.h", {"pipelines/import/images/"}},
         {"jpeglib.h", {"pipelines/import/"}},

@@ -38,7 +38,14 @@ Json smallReport()
                                  {"name": "large", "clusters": 2, "source": {"triangles": 9, "vertices": 9},
                                   "bytes": {"pages_stored": 50}, "levels": [{"clusters": 1, "triangles": 9, "max_error": 0.5}]}],
                       "totals": {"triangles": 17}},
-         "textures": [{"name": "bark", "width": 4, "uses": [{"material": "Oak", "role": "normal"}]}],
+         "textures": [{"name": "bark", "width": 4, "uses": [{"material": "Oak", "role": "normal"}],
+                       "encoding": {"role": "normal", "error": {"rms": 0.04, "degrees": 2.3}, "error_p999": {"degrees": 7.0},
+                                    "error_smooth": {"degrees": 0.0}, "target": {"degrees": 3.0}, "target_smooth": null,
+                                    "holds_target": true, "reason": "target",
+                                    "estimates": [{"format": "astc-6x6-unorm", "bytes": 90, "error": {"degrees": 3.5},
+                                                   "error_smooth": {"degrees": 0.0}}],
+                                    "picture": {"x": 256, "y": 128, "error_x": 384, "width": 128, "height": 64,
+                                                "brightest": {"degrees": 9.2}}}}],
          "messages": [{"code": "W1400", "severity": "warning", "text": "extras"}], "dropped": ["extras"]},
         {"source": "b<&\".glb", "state": "failed", "seconds": 0.5,
          "messages": [{"code": "E1103", "severity": "error", "text": "is <bad>", "pointer": "/meshes/0"}]},
@@ -123,6 +130,10 @@ TEST(PageData, isRowsOfWhatThePageShows)
     EXPECT_EQ(data["meshes"][2][1], 2) << "its asset";
     EXPECT_EQ(data["explain"]["E1103"]["summary"], issueInfo(Issue::gltf_reference).summary);
     EXPECT_TRUE(data["explain"].contains("W1400"));
+    const Json& texture = data["textures"][0];
+    EXPECT_EQ(texture[texture.size() - 2].dump(),
+              R"(["normal",2.3,7.0,0.0,3.0,null,true,"target",)"
+              R"([256,128,384,128,64],9.2,[["astc-6x6-unorm",90,3.5,0.0]]])");
     EXPECT_EQ(data["textures"][0].back().dump(), R"([["Oak","normal"]])");
 }
 
@@ -136,8 +147,9 @@ TEST(PageData, saysWhichSettingsMakeEachCookerCheaper)
     EXPECT_EQ((*quality)[1], "--visibility-quality");
     EXPECT_EQ((*quality)[2], "draft takes fewer rays");
     for (const auto& [cooker, list] : savings.items())
-        EXPECT_TRUE(std::set<std::string>({"import", "textures", "texels", "clusters", "visibility", "bricks"})
-                        .contains(cooker))
+        EXPECT_TRUE(
+            std::set<std::string>({"import", "textures", "texels", "clusters", "visibility", "bricks"})
+                .contains(cooker))
             << cooker << " runs in no cook";
     EXPECT_EQ(savings.size(), 6u) << savings;
 }

@@ -5,6 +5,7 @@
 #include "cook/command_line/thread_limit.h"
 #include "cook/tools/batch.h"
 #include "cook/tools/open_part.h"
+#include "cook/tools/png.h"
 #include "cook/visibility/program/visibility_part.h"
 #include "cook/visibility/scene/occlusion_image.h"
 #include "formats/base/atomic_file.h"
@@ -126,7 +127,7 @@ Status writeOcclusionImage(const Arguments& arguments, const formats::PackView& 
     HEARTH_ASSIGN_OR_RETURN(const visibility::GreyImage image,
                             visibility::renderOcclusion(import_part, baked, kWidth, kHeight));
     HEARTH_ASSIGN_OR_RETURN(AtomicFile file, AtomicFile::create(arguments.image));
-    file.write(visibility::encodePng(image));
+    file.write(tools::encodePng(image.width, image.height, 1, image.texels));
     return file.finish();
 }
 

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <png.h>
 #include <utility>
 
 namespace hearth::visibility
@@ -203,23 +202,6 @@ Result<GreyImage> renderOcclusion(const PackView& scene, const PackView& baked, 
         }
     }
     return raster.image();
-}
-
-std::vector<std::byte> encodePng(const GreyImage& image)
-{
-    HEARTH_ASSERT(image.texels.size() == size_t{image.width} * image.height);
-    png_image png{};
-    png.version = PNG_IMAGE_VERSION;
-    png.width = image.width;
-    png.height = image.height;
-    png.format = PNG_FORMAT_GRAY;
-    std::vector<std::byte> file(PNG_IMAGE_PNG_SIZE_MAX(png));
-    png_alloc_size_t size = file.size();
-    const int written =
-        png_image_write_to_memory(&png, file.data(), &size, 0, image.texels.data(), 0, nullptr);
-    HEARTH_ASSERT(written != 0);
-    file.resize(size);
-    return file;
 }
 
 } // namespace hearth::visibility

@@ -30,7 +30,4 @@ struct GreyImage
 Result<GreyImage> renderOcclusion(const formats::PackView& scene, const formats::PackView& baked,
                                   uint32_t width, uint32_t height);
 
-/// Encode the image as a PNG file.
-std::vector<std::byte> encodePng(const GreyImage& image);
-
 } // namespace hearth::visibility

@@ -39,17 +39,6 @@ Result<uint32_t> findImage(const PackView& pack, const std::string& path, const 
             (nearest.empty() ? ": hearth inspect lists them" : "; did you mean \"" + nearest + "\"?")};
 }
 
-/// Return the swizzle as KTX2 writes it: each of "rgba01".
-std::string swizzleText(const ImageRecord& image)
-{
-    constexpr std::string_view kSources = "?01rgba";
-    std::string text = "rgba";
-    for (size_t c = 0; c < text.size(); ++c)
-        if (image.swizzle[c] != static_cast<uint8_t>(Swizzle::identity))
-            text[c] = kSources[image.swizzle[c]];
-    return text;
-}
-
 /// Return all mips as RGBA8, as shaders read them.
 std::vector<std::byte> decodeMips(const ImageRecord& image, std::span<const std::byte> mips)
 {
@@ -62,6 +51,16 @@ std::vector<std::byte> decodeMips(const ImageRecord& image, std::span<const std:
 }
 
 } // namespace
+
+std::string swizzleText(const ImageRecord& image)
+{
+    constexpr std::string_view kSources = "?01rgba";
+    std::string text = "rgba";
+    for (size_t c = 0; c < text.size(); ++c)
+        if (image.swizzle[c] != static_cast<uint8_t>(Swizzle::identity))
+            text[c] = kSources[image.swizzle[c]];
+    return text;
+}
 
 Status extractTexture(const std::string& path, const TextureExtraction& extraction, const std::string& output)
 {

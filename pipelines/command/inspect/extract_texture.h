@@ -16,6 +16,9 @@ struct TextureExtraction
     bool is_compressed = false; ///< each mip is a zstd frame
 };
 
+/// Return the swizzle as KTX2 writes it: each of "rgba01".
+std::string swizzleText(const formats::ImageRecord& image);
+
 /// Write the texture with all mips.
 /// errors: usage where no texture has the name, with the nearest one; those of openContainer and
 /// PackView::imageData; cannot_write.

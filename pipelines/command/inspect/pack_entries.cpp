@@ -4,14 +4,17 @@
 #include "cook/json/json.h"
 #include "cook/tools/sha256.h"
 #include "formats/codecs/channel_keys.h"
+#include "formats/pack/image_error.h"
 #include "formats/pack/image_uses.h"
 #include "formats/records/animation_paths.h"
 #include "formats/records/texel_format.h"
+#include "pipelines/command/inspect/extract_texture.h"
 #include "pipelines/command/inspect/inspect.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <set>
+#include <utility>
 
 namespace hearth::command
 {
@@ -246,11 +249,30 @@ std::string usesText(const PackView& pack, const std::vector<ImageUse>& uses)
     return uses.size() <= kMaxUses ? text : text + fmt::format(" and {} more", uses.size() - kMaxUses);
 }
 
+/// Express the role of an image, its swizzle and its errors as people do: "normal", "rg11", "2.10 degrees".
+void expressEncoding(const ImageRecord& image, std::vector<Property>& properties)
+{
+    const auto role = static_cast<ImageRole>(image.role);
+    const std::pair<std::string_view, std::string> texts[] = {
+        {"role", std::string(imageRoleName(image.role))},
+        {"swizzle", swizzleText(image)},
+        {"error", imageErrorText(role, double{image.error})},
+        {"error_p999", imageErrorText(role, double{image.error_p999})},
+        {"error_smooth", imageErrorText(role, double{image.error_smooth})}};
+    for (Property& property : properties)
+        for (const auto& [name, text] : texts)
+            if (property.name == name)
+                property.value = text;
+}
+
 Result<PackEntry> makeTextureEntry(const PackView& pack, uint32_t index, const std::vector<ImageUse>& uses)
 {
     PackEntry entry{"texture", std::string(pack.text(pack.images()[index].name)), {}, usesText(pack, uses)};
-    addFieldProperties(entry.properties, pack, pack.images()[index]);
+    const ImageRecord& image = pack.images()[index];
+    addFieldProperties(entry.properties, pack, image);
+    expressEncoding(image, entry.properties);
     HEARTH_ASSIGN_OR_RETURN(const ChunkData texels, pack.imageData(index));
+    entry.properties.push_back({"bytes on the GPU", std::to_string(mipOffset(image, image.mip_count))});
     entry.properties.push_back({"texels", contentHash(rawBytes(texels.bytes())), true});
     return entry;
 }

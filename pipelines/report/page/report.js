@@ -4,7 +4,8 @@
 const named = (row, names) => Object.fromEntries(names.map((name, i) => [name, row[i]]));
 const kStage = ['stage', 'state', 'seconds', 'bytes', 'start', 'lane', 'cpu', 'peak', 'why'];
 const kMesh = ['name', 'asset', 'triangles', 'vertices', 'bytes', 'clusters', 'pages', 'levels'];
-const kTexture = ['name', 'asset', 'width', 'height', 'mips', 'format', 'content', 'bytes', 'memory', 'rms', 'psnr', 'half', 'halfKnown', 'placeholder', 'uses'];
+const kTexture = ['name', 'asset', 'width', 'height', 'mips', 'format', 'content', 'bytes', 'memory', 'half', 'halfKnown', 'placeholder', 'encoding', 'uses'];
+const kEncoding = ['role', 'error', 'p999', 'smooth', 'target', 'targetSmooth', 'holds', 'reason', 'picture', 'brightest', 'candidates'];
 
 function readData() {
   const data = JSON.parse($('data').textContent);
@@ -30,6 +31,7 @@ function readData() {
   data.textures = data.textures.map(row => {
     const texture = named(row, kTexture);
     texture.asset = data.assets[texture.asset];
+    texture.encoding = texture.encoding && named(texture.encoding, kEncoding);
     const more = texture.uses.length > 1 ? ` +${texture.uses.length - 1}` : '';
     texture.material = texture.uses.length ? texture.uses[0][0] || '(no name)' : '(none)';
     texture.role = texture.uses.length ? texture.uses[0][1] + more : '';
@@ -85,6 +87,7 @@ function showPage() {
   timeline.draw();
   // preselect a mesh and an asset, so that there is something to see
   if (meshes) meshes.choose(meshes.first());
+  if (textures) textures.choose(textures.first());
   if (data.assets.length) assets.choose(assets.first());
   document.documentElement.dataset.ready = Math.round(performance.now());
   document.documentElement.dataset.cut = [...document.querySelectorAll('.table')].filter(table => !fits(table)).length;

@@ -171,25 +171,77 @@ function meshesSection(data, images) {
   return {part: table.filter ? withTools(part, table.filter) : part, choose: table.choose, first: table.first};
 }
 
+/** Formats an error of an encoding in the unit of its role. */
+function errorText(role, value) {
+  if (value === null || value === undefined) return 'exact';
+  return role === 'normal' ? value.toFixed(2) + '°' : role === 'light' ? value.toFixed(3) + ' stops' : value.toFixed(1) + ' dB';
+}
+
+/** Part of its target that an error takes: 1 at the target. */
+function errorShare(role, value, target) {
+  if (value === null || target === null) return 0;
+  return role === 'normal' || role === 'light' ? value / target : 10 ** ((target - value) / 20);
+}
+
+const kReasons = {target: 'the fewest bytes that hold the target', rule: 'named by a rule', budget: 'the budget of all textures'};
+
+/** Shows a thumbnail beside the picture of its error, both parts of the sheet of the asset. */
+function texturePictures(texture) {
+  const {role, picture, brightest} = texture.encoding, sheet = texture.asset.texture_pictures;
+  if (!sheet || !picture.length) return null;
+  const [x, y, errorX, width, height] = picture;
+  const white = role === 'normal' || role === 'light' ? errorText(role, brightest) : `${digits(255 / 10 ** (brightest / 20))} of 255`;
+  const part = (left, caption, what) => el('figure', {},
+    svg('svg.crop', {role: 'img', 'aria-label': `${texture.name}: ${what}`, viewBox: `${left} ${y} ${width} ${height}`}, svg('image', {href: sheet})), el('figcaption', {}, caption));
+  return el('div.pair', {}, part(x, `${texture.width} × ${texture.height}`, 'thumbnail'),
+            part(errorX, brightest === null ? 'no error' : ['error ', el('i.scale'), ` ${white}`], 'error'));
+}
+
 function texturesSection(data) {
   if (!data.textures.length) return null;
   const decibels = (value, known) => known === false ? '–' : value === null ? 'exact' : value.toFixed(1) + ' dB';
+  const share = texture => texture.encoding ? Math.max(errorShare(texture.encoding.role, texture.encoding.error, texture.encoding.target),
+    errorShare(texture.encoding.role, texture.encoding.smooth, texture.encoding.targetSmooth)) : -1;
+  const about = el('div');
+  const detail = el('div.detail', {'aria-live': 'polite'}, about);
   const table = makeTable('Textures', data.textures, [
     {name: 'Material', of: texture => texture.material, show: texture => el('span', {title: usesText(texture)}, texture.material, texture.placeholder ? el('span.warn', {}, '  placeholder') : null), width: 'minmax(110px, 2fr)'},
     {name: 'Role', of: texture => texture.role, show: texture => el('span', {title: usesText(texture)}, texture.role), width: '142px'},
     {name: 'Image', of: texture => texture.name, show: texture => el('span.faint', {title: texture.name}, texture.name), width: 'minmax(90px, 1fr)', drop: 3},
-    {name: 'Asset', of: texture => texture.asset.source, show: texture => el('span', {title: texture.asset.source}, nameOf(texture.asset.source)), width: 'minmax(90px, 1fr)', drop: 1},
+    {name: 'Asset', of: texture => texture.asset.source, show: texture => el('span', {title: texture.asset.source}, nameOf(texture.asset.source)), width: 'minmax(90px, 1fr)', drop: 2},
     {name: 'Size', number: true, of: texture => texture.width * texture.height, show: texture => `${texture.width} × ${texture.height}`, width: '102px'},
-    {name: 'Mips', number: true, of: texture => texture.mips, width: '50px', drop: 5},
-    {name: 'Format', of: texture => texture.format, width: '100px', drop: 4},
-    {name: 'In the pack', number: true, of: texture => texture.bytes, show: texture => bytes(texture.bytes), width: '102px'},
-    {name: 'In memory', number: true, of: texture => texture.memory, show: texture => bytes(texture.memory), width: '92px', drop: 2},
-    {name: 'Error', number: true, width: '78px', of: texture => texture.rms, show: texture => decibels(texture.psnr), tip: 'PSNR of what is stored against the source: more is better, exact is no error'},
-    {name: 'Half size', number: true, width: '78px', of: texture => texture.halfKnown ? texture.half ?? Infinity : -1, show: texture => decibels(texture.half, texture.halfKnown),
+    {name: 'Mips', number: true, of: texture => texture.mips, width: '50px', drop: 6},
+    {name: 'Format', of: texture => texture.format, show: texture => el('span', {title: texture.encoding ? kReasons[texture.encoding.reason] : ''}, texture.format), width: '124px'},
+    {name: 'In the pack', number: true, of: texture => texture.bytes, show: texture => bytes(texture.bytes), width: '88px', drop: 4},
+    {name: 'On the GPU', number: true, of: texture => texture.memory, show: texture => bytes(texture.memory), width: '98px'},
+    {name: 'Error', number: true, width: '78px', of: share, show: texture => texture.encoding ? el('span' + (texture.encoding.holds ? '' : '.warn'), {}, errorText(texture.encoding.role, texture.encoding.error)) : '–',
+     tip: 'of the compressed texture against the uncompressed one, mips 0 to 3: decibels, more is better, or degrees of normals; sorted by the part of its target'},
+    {name: 'Target', number: true, width: '78px', of: texture => texture.encoding ? texture.encoding.target : -1, show: texture => texture.encoding ? errorText(texture.encoding.role, texture.encoding.target) : '–', drop: 1},
+    {name: 'Half size', number: true, width: '78px', of: texture => texture.halfKnown ? texture.half ?? Infinity : -1, show: texture => decibels(texture.half, texture.halfKnown), drop: 5,
      tip: 'PSNR of half the size against the source: where it is 45 dB and more, half the size would hardly be seen'},
-  ], {select: () => {}, sort: 7, text: texture => usesText(texture) + ' ' + texture.name + ' ' + texture.asset.source + ' ' + texture.format + ' ' + texture.content});
-  const part = section('textures', 'Textures', 'PSNR against the source, in decibels: more is better', table.table);
-  return {part: table.filter ? withTools(part, table.filter) : part, choose: table.choose};
+  ], {select: show, sort: 8, text: texture => usesText(texture) + ' ' + texture.name + ' ' + texture.asset.source + ' ' + texture.format + ' ' + texture.content});
+  function show(texture) {
+    const encoding = texture.encoding;
+    if (!encoding) {
+      about.replaceChildren(el('h3', {}, texture.name || '(no name)'), el('p.faint', {}, `${texture.format}, as it was made: nothing was encoded.`));
+      return;
+    }
+    const isMissed = (value, target) => target !== null && errorShare(encoding.role, value, target) > 1;
+    const value = (number, target) => el('td' + (isMissed(number, target) ? '.warn' : ''), {}, errorText(encoding.role, number));
+    const hasSmooth = encoding.targetSmooth !== null && [encoding.smooth, ...encoding.candidates.map(candidate => candidate[3])].some(smooth => smooth !== null);
+    const row = (name, size, error, smooth, mark) => el('tr' + mark, {}, el('td', {}, name), el('td', {}, bytes(size)), value(error, encoding.target), hasSmooth ? value(smooth, encoding.targetSmooth) : null);
+    const others = encoding.candidates.filter(candidate => candidate[0] !== texture.format);
+    about.replaceChildren(...[el('h3', {}, texture.name || '(no name)'), texturePictures(texture),
+      el('dl', {}, ...[['format', `${texture.format}: ${kReasons[encoding.reason]}`], ['error', `${errorText(encoding.role, encoding.error)}, target ${errorText(encoding.role, encoding.target)}`],
+        ['99.9 % of texels', errorText(encoding.role, encoding.p999)], hasSmooth ? ['smooth areas', `${errorText(encoding.role, encoding.smooth)}, target ${errorText(encoding.role, encoding.targetSmooth)}`] : null]
+        .filter(Boolean).flatMap(([name, text]) => [el('dt', {}, name), el('dd', {}, text)])),
+      el('h3', {}, 'Bytes over error'), makeRates(texture, 400, 210),
+      el('table.plain', {}, el('thead', {}, el('tr', {}, ['format', 'on the GPU', 'error', hasSmooth ? 'smooth' : null].filter(Boolean).map(name => el('th', {}, name)))),
+         el('tbody', {}, row(texture.format, texture.memory, encoding.error, encoding.smooth, '.chosen'), others.map(candidate => row(...candidate, '')))),
+      el('p.faint', {}, others.length ? 'The search estimated the others from some of their blocks.' : 'The search looked at no other format.')].filter(Boolean));
+  }
+  const part = section('textures', 'Textures', 'errors against the uncompressed texture; more decibels, or fewer degrees, are better', el('div.split', {}, table.table, detail));
+  return {part: table.filter ? withTools(part, table.filter) : part, choose: table.choose, first: table.first};
 }
 
 /** Lists all uses of an image, one a line. */

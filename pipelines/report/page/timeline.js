@@ -2,7 +2,7 @@
 // Draws the timeline: a bar for each action, in its lane. A canvas, for tens of thousands of bars.
 
 const kLaneHeight = 22;
-const kStageColors = {import: 'import', textures: 'textures', clusters: 'clusters', skinning: 'skinning', visibility: 'visibility',
+const kStageColors = {import: 'import', textures: 'textures', texels: 'textures', clusters: 'clusters', skinning: 'skinning', visibility: 'visibility',
                       bricks: 'light', specular: 'other', link: 'link'};
 
 /** bars  {stage, subject, start, seconds, lane, why, failed, open} */
@@ -42,7 +42,7 @@ function makeTimeline(bars, total) {
       paint.fillRect(x, y, w, kLaneHeight - 5);
       if (w > 60) {
         paint.fillStyle = '#fff';
-        paint.fillText(fitted(bar.stage + ' ' + nameOf(bar.subject), w - 6), x + 4, y + 12.5);
+        paint.fillText(shorten(bar.stage + ' ' + nameOf(bar.subject), w - 6), x + 4, y + 12.5);
       }
     }
   }
