@@ -124,8 +124,9 @@ private:
         return (passing - static_cast<double>(wanted_)) / (1.0 * extent_.width * extent_.height);
     }
 
-    /// Return the factor of alpha that should undo a change of the coverage: a step of Newton, with the slope
-    /// that the number of alphas near the cutoff tells. Over a wide range, since decoded alphas come in steps.
+    /// Return the factor of alpha that should undo a change of the coverage: a step of Newton, with the
+    /// slope that the number of alphas near the cutoff tells. Over a wide range, since decoded alphas
+    /// come in steps.
     double findFactor(const Histogram& histogram, double change) const
     {
         constexpr double kNear = 0.1;

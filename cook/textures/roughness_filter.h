@@ -1,8 +1,8 @@
-// Widens the roughness of mips by the normals that the mips of a normal map lose: a bumpy surface that is far
-// away looks rough. The length of a mean of unit normals tells how much they spread. Sources: M. Toksvig,
-// "Mipmapping Normal Maps", 2005; A. Banerjee and others, "Clustering on the Unit Hypersphere using von
-// Mises-Fisher Distributions", 2005 (spread from length); C. Han and others, "Frequency Domain Normal Map
-// Filtering", 2007.
+// Widens the roughness of mips by the normals that the mips of a normal map lose: a bumpy surface that
+// is far away looks rough. The length of a mean of unit normals tells how much they spread. Sources: M.
+// Toksvig, "Mipmapping Normal Maps", 2005; A. Banerjee and others, "Clustering on the Unit Hypersphere
+// using von Mises-Fisher Distributions", 2005 (spread from length); C. Han and others, "Frequency
+// Domain Normal Map Filtering", 2007.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -24,8 +24,8 @@ struct NormalSource
     float roughness_factor = 1; ///< above 0
 };
 
-/// Compute what the spread of normals adds to the square of alpha, where alpha is the square of roughness.
-/// The GGX lobe that is nearest to the mean of lobes around those normals has that sum.
+/// Compute what the spread of normals adds to the square of alpha, where alpha is the square of
+/// roughness. The GGX lobe that is nearest to the mean of lobes around those normals has that sum.
 ///
 /// mean_length  0 to 1: length of the mean of unit normals
 /// step_error   variance that the steps of stored normals have by themselves, which is no roughness
@@ -37,8 +37,8 @@ class RoughnessFilter
 public:
     explicit RoughnessFilter(const NormalSource& source) : source_(source) {}
 
-    /// Widen the roughness (y) of working texels of a mip. Mips come from fine to coarse. Texels whose normals
-    /// are alike stay as they are, and so does a mip that is no smaller than the normal map.
+    /// Widen the roughness (y) of working texels of a mip. Mips come from fine to coarse. Texels whose
+    /// normals are alike stay as they are, and so does a mip that is no smaller than the normal map.
     void apply(FloatImage& mip);
 
 private:

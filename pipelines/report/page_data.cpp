@@ -33,7 +33,8 @@ Json stageRow(const Json& stage)
                         stage.value("peak_rss_bytes", uint64_t{0}), stage.value("why", Json::array())});
 }
 
-/// Return a row: clusters, triangles, largest and mean error, then the largest of positions, normals and UVs
+/// Return a row: clusters, triangles, largest and mean error, then the largest of positions, normals
+/// and UVs
 Json levelRow(const Json& level)
 {
     const auto largest = [&](const char* key) { return level.value(key, Json::object()).value("max", 0.0); };
@@ -81,9 +82,9 @@ Json convertedError(const Json& encoding, const char* key)
 }
 
 /// Return what the encoding of a texture has lost, and what the search looked at: role, error, error of
-/// 99.9 % of the texels, of smooth areas, their targets, whether they are held, reason of the format, place of
-/// the pictures, error of their brightest colour, and candidates (format, bytes, error, of smooth areas).
-/// Null where nothing was encoded.
+/// 99.9 % of the texels, of smooth areas, their targets, whether they are held, reason of the format,
+/// place of the pictures, error of their brightest colour, and candidates (format, bytes, error, of
+/// smooth areas). Null where nothing was encoded.
 Json encodingRow(const Json& texture)
 {
     const Json encoding = texture.value("encoding", Json());
@@ -106,8 +107,8 @@ Json encodingRow(const Json& texture)
                         convertedError(picture, "brightest"), candidates});
 }
 
-/// Return a row: name, asset, width, height, mips, format, content, bytes in the file, bytes in memory, PSNR
-/// of half the size, whether that was measured, whether it is a placeholder, encoding, uses
+/// Return a row: name, asset, width, height, mips, format, content, bytes in the file, bytes in memory,
+/// PSNR of half the size, whether that was measured, whether it is a placeholder, encoding, uses
 Json textureRow(const Json& texture, size_t asset)
 {
     return Json::array({texture.value("name", ""), asset, texture.value("width", 0),

@@ -1,4 +1,5 @@
-// Slots of staging memory: each is taken for a read, and free again once the frame that copies it has completed.
+// Slots of staging memory: each is taken for a read, and free again once the frame that copies it has
+// completed.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

@@ -27,10 +27,10 @@ struct BudgetShare
     bool is_held = true;          ///< bytes are within the budget; else each texture has its smallest option
 };
 
-/// Choose an option of each texture. Their cost together is at most one step of one texture's convex hull
-/// above the least that is possible with so many bytes: steps are taken by falling cost / bytes, as long as
-/// they fit (Shoham and Gersho, Efficient bit allocation for an arbitrary set of quantizers, 1988). Options in
-/// another order give the same cost. Time O(n log n) of the options.
+/// Choose an option of each texture. Their cost together is at most one step of one texture's convex
+/// hull above the least that is possible with so many bytes: steps are taken by falling cost / bytes,
+/// as long as they fit (Shoham and Gersho, Efficient bit allocation for an arbitrary set of quantizers,
+/// 1988). Options in another order give the same cost. Time O(n log n) of the options.
 BudgetShare shareBudget(std::span<const BudgetOptions> textures, uint64_t budget);
 
 } // namespace hearth::texels

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "formats/base/result.h"
+#include "formats/records/scene.h"
 
 #include <string>
 
