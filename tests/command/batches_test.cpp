@@ -50,6 +50,7 @@ while [ $# -gt 0 ]; do
   case "$1" in
     -o) cp "PARTS.COOKER.part" "$2" ;;
     --stats) echo '{}' > "$2" ;;
+    --image) : > "$2" ;;
   esac
   shift
 done

@@ -46,6 +46,7 @@ echo '{"images": [{"format": "astc-6x6-srgb", "role": "color", "bytes": 48, "byt
                    "error": {"rms": 0.01, "psnr_db": 40.0}, "error_p999": {"rms": 0.02, "psnr_db": 34.0},
                    "error_smooth": {"rms": 0.0, "psnr_db": null}, "coverage_error": 0.0,
                    "target": {"rms": 0.015, "psnr_db": 36.5}, "holds_target": true}]}' > "$2"
+while [ $# -gt 0 ]; do if [ "$1" = "--image" ]; then : > "$2"; fi; shift; done
 )";
 
 constexpr const char* kClusters = R"(#!/bin/sh
