@@ -25,7 +25,8 @@ std::vector<PageNode> TextureGraph::makeNodes(std::span<const std::vector<uint64
         for (size_t mip = image.size(); mip-- > 0;)
         {
             HEARTH_ASSERT(image[mip] <= std::numeric_limits<uint32_t>::max());
-            PageNode node{.size_bytes = static_cast<uint32_t>(image[mip])};
+            PageNode node;
+            node.size_bytes = static_cast<uint32_t>(image[mip]);
             if (mip + 1 == image.size())
                 node.holds_root = true;
             else

@@ -157,7 +157,8 @@ void TextureStream::schedule(uint64_t feedback_serial)
     for (const uint32_t node : started)
     {
         const TextureMip& mip = graph_.mip(node);
-        Load load{.node = node};
+        Load load;
+        load.node = node;
         for (auto piece = static_cast<uint32_t>(pieces_[mip.image].size()); piece-- > 0;)
             if (pieces_[mip.image][piece].mip == mip.mip)
                 load.pieces.push_back(piece);

@@ -90,7 +90,7 @@ private:
     /// Mip on its way.
     struct Load
     {
-        uint32_t node;
+        uint32_t node = 0;
         std::vector<uint32_t> pieces; ///< of listTexturePieces, to be read; the next is the last
         uint32_t reads = 0;           ///< in flight
         bool is_failed = false;

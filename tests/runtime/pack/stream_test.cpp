@@ -354,8 +354,8 @@ TEST_F(StreamTest, requestsEqualTheirTwinBitForBit)
                                              pack_->pages().size() + pack_->materials().size() + 1);
         const auto twin = makeRequestTwin(*pack_, layout_, makeView(*streamed_, camera, scaled(options)));
         EXPECT_EQ(requests, twin);
-        textured += std::count_if(requests.begin() + static_cast<ptrdiff_t>(pack_->pages().size()),
-                                  requests.end(), [](uint32_t request) { return request != 0; });
+        for (size_t row = pack_->pages().size(); row < requests.size(); ++row)
+            textured += requests[row] != 0 ? 1u : 0u;
         for (uint32_t page = 0; page < pack_->pages().size(); ++page)
         {
             requested += requests[page] != 0 ? 1u : 0u;
