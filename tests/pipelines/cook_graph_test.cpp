@@ -107,7 +107,7 @@ TEST(CookGraph, passesSettingsToEveryCooker)
                                   "--max-size", "64", "--stats", "{textures.json}"}));
     EXPECT_EQ(commands[3], (Words{"bin/hearth-texels", "{import.part}", "{textures.part}", "-o",
                                   "{texels.part}", "--family", "astc", "--family", "bc", "--quality", "draft",
-                                  "--stats", "{texels.json}"}));
+                                  "--stats", "{texels.json}", "--image", "{texels.png}"}));
     EXPECT_EQ(commands[4],
               (Words{"bin/hearth-skinning", "{import.part}", "{clusters.part}", "-o", "{skinning.part}"}));
     EXPECT_EQ(commands[5], (Words{"bin/hearth-visibility",

@@ -202,6 +202,8 @@ TEST_F(Keys, everySettingChangesThoseOfItsCookerAndItsReaders)
             if (setting.key == "visibility.distance")
                 values.erase("visibility.power");
             values.erase(setting.key);
+            if (setting.default_text == chooseValue(setting, 0).text) // as before
+                continue;
             EXPECT_EQ(changed(before, keys(other)), readers.at(std::string(cooker.name))) << setting.key;
         }
 }
