@@ -29,9 +29,9 @@ constexpr size_t kMeshesPerProcess = 12;
 
 // Packs larger than this are streamed, so that their report needs no more memory than their cook did. Images
 // are then taken before all pages have arrived, and may be coarser. Packs that are not streamed are drawn
-// with a geometry budget of 512 MiB, decoded: three times the geometry in the file of 84 million triangles.
+// with a memory budget of 512 MiB, decoded: three times the geometry in the file of 84 million triangles.
 constexpr uint64_t kLargePack = uint64_t{64} << 20;
-constexpr const char* kGeometryBudget = "512M";
+constexpr const char* kMemoryBudget = "512M";
 
 // Sizes of the scene's image, which fills half the width of a page, and of a contact sheet, whose cells
 // shrink with the number of assets.
@@ -93,7 +93,7 @@ public:
                                          fmt::format("{}", fmt::join(views, ","))};
         std::error_code error;
         if (std::filesystem::file_size(pack_, error) > kLargePack)
-            command.insert(command.end(), {"--budget", kGeometryBudget});
+            command.insert(command.end(), {"--budget", kMemoryBudget});
         const std::string statistics = folder_->path() + "/image.json";
         if (meshes.empty())
             command.insert(command.end(), {"--stats", statistics});

@@ -60,7 +60,6 @@ const std::vector<Layer>& layers()
         {"cook/texels/blocks", {}},
         {"cook/texels/bc", {"formats", "cook/texels/blocks"}},
         {"cook/texels/etc2", {"formats", "cook/texels/blocks"}},
-        {"cook/texels/budget", {"formats"}},
         {"cook/texels/rules", {"formats", "cook/tools", "cook/texels/blocks"}},
         {"cook/texels",
          {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/texels/blocks", "cook/texels/bc",

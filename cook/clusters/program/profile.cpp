@@ -2,7 +2,7 @@
 #include "cook/clusters/program/profile.h"
 
 #include "cook/tools/name_pattern.h"
-#include "cook/tools/toml.h"
+#include "cook/tools/toml_location.h"
 #include "formats/base/nearest_match.h"
 #include "formats/base/regular_file.h"
 
@@ -18,24 +18,7 @@ namespace
 {
 
 using tools::TomlNode;
-
-/// Location of a value in the file, for messages.
-struct Location
-{
-    const std::string& file;
-    std::string key;
-
-    Location at(std::string_view name) const
-    {
-        return {file, key.empty() ? std::string(name) : key + "." + std::string(name)};
-    }
-    Location at(size_t index) const { return {file, fmt::format("{}[{}]", key, index)}; }
-
-    Error wrong(Issue issue, const TomlNode& node, std::string detail) const
-    {
-        return {issue, file, fmt::format("line {}, {}", node.line, key), std::move(detail)};
-    }
-};
+using Location = tools::TomlLocation;
 
 using Keys = std::vector<std::string>;
 
@@ -206,23 +189,6 @@ Result<MaterialRule> materialRuleAt(const TomlNode& node, const Location& place)
     return rule;
 }
 
-/// Read one rule for each table of the array `name`, if it exists.
-template <typename Rule>
-Status readRules(const TomlNode& table, std::string_view name, const Location& place,
-                 Result<Rule> (*readRule)(const TomlNode&, const Location&), std::vector<Rule>& rules)
-{
-    const TomlNode* node = table.find(name);
-    if (node == nullptr)
-        return success();
-    HEARTH_ASSIGN_OR_RETURN(const TomlNode* array, arrayAt(*node, place.at(name)));
-    for (size_t i = 0; i < array->children.size(); ++i)
-    {
-        HEARTH_ASSIGN_OR_RETURN(Rule rule, readRule(array->children[i], place.at(name).at(i)));
-        rules.push_back(std::move(rule));
-    }
-    return success();
-}
-
 Result<Profile> makeProfile(const TomlNode& root, const std::string& path)
 {
     // other tables are for other cookers, and hearth resolves `inherits`; only a misspelt name is an error
@@ -243,8 +209,8 @@ Result<Profile> makeProfile(const TomlNode& root, const std::string& path)
     {
         HEARTH_ASSIGN_OR_RETURN(profile.levels, curveAt(*levels, place.at("levels")));
     }
-    HEARTH_TRY(readRules(*table, "mesh", place, meshRuleAt, profile.meshes));
-    HEARTH_TRY(readRules(*table, "material", place, materialRuleAt, profile.materials));
+    HEARTH_TRY(tools::readRules(*table, "mesh", place, meshRuleAt, profile.meshes));
+    HEARTH_TRY(tools::readRules(*table, "material", place, materialRuleAt, profile.materials));
     return profile;
 }
 

@@ -2,7 +2,7 @@
 #include "cook/texels/rules/texture_rules.h"
 
 #include "cook/tools/name_pattern.h"
-#include "cook/tools/toml.h"
+#include "cook/tools/toml_location.h"
 #include "formats/base/nearest_match.h"
 #include "formats/pack/image_error.h"
 
@@ -15,23 +15,12 @@ namespace hearth::texels
 
 using namespace formats;
 using tools::TomlNode;
+using Location = tools::TomlLocation;
 
 namespace
 {
 
 using Keys = std::vector<std::string>;
-
-/// Location of a value, for messages.
-struct Location
-{
-    const std::string& file;
-    std::string key;
-
-    Location at(std::string_view name) const { return {file, key + "." + std::string(name)}; }
-    Location at(size_t index) const { return {file, fmt::format("{}[{}]", key, index)}; }
-
-    Error wrong(Issue issue, std::string detail) const { return {issue, file, key, std::move(detail)}; }
-};
 
 Error unknownWord(const Location& place, Issue issue, std::string_view word, const Keys& known)
 {
@@ -189,24 +178,6 @@ Result<NameRule> readNameRule(const TomlNode& table, const Location& place)
     return rule;
 }
 
-/// Read one rule for each table of the array `name`, if it exists.
-template <typename Rule>
-Status readRules(const TomlNode& table, std::string_view name, const Location& place,
-                 Result<Rule> (*readRule)(const TomlNode&, const Location&), std::vector<Rule>& rules)
-{
-    const TomlNode* node = table.find(name);
-    if (node == nullptr)
-        return success();
-    if (!node->isArray() || node->children.empty())
-        return place.at(name).wrong(Issue::profile_value, "must be an array of at least one table");
-    for (size_t i = 0; i < node->children.size(); ++i)
-    {
-        HEARTH_ASSIGN_OR_RETURN(Rule rule, readRule(node->children[i], place.at(name).at(i)));
-        rules.push_back(std::move(rule));
-    }
-    return success();
-}
-
 /// Set what a rule sets, over less specific settings.
 void apply(const TextureChoice& rule, TextureChoice& choice)
 {
@@ -229,7 +200,7 @@ Result<TextureRules> parseTextureRules(std::string_view text, const std::string&
     if (!root)
         return Error{Issue::profile_syntax, file, fmt::format("line {}", fault.line), fault.text};
     TextureRules rules;
-    const Location place{file, "textures"};
+    const Location place{.file = file, .key = "textures", .has_lines = false};
     for (const TomlNode& group : root->children)
         if (group.key != "textures")
             return place.wrong(Issue::profile_key,
@@ -240,8 +211,8 @@ Result<TextureRules> parseTextureRules(std::string_view text, const std::string&
     for (const TomlNode& member : table->children)
         if (member.key != "role" && member.key != "image")
             return unknownWord(place, Issue::profile_key, member.key, {"role", "image"});
-    HEARTH_TRY(readRules(*table, "role", place, readRoleRule, rules.roles));
-    HEARTH_TRY(readRules(*table, "image", place, readNameRule, rules.images));
+    HEARTH_TRY(tools::readRules(*table, "role", place, readRoleRule, rules.roles));
+    HEARTH_TRY(tools::readRules(*table, "image", place, readNameRule, rules.images));
     return rules;
 }
 

@@ -183,7 +183,7 @@ function errorShare(role, value, target) {
   return role === 'normal' || role === 'light' ? value / target : 10 ** ((target - value) / 20);
 }
 
-const kReasons = {target: 'the fewest bytes that hold the target', rule: 'named by a rule', budget: 'the budget of all textures'};
+const kReasons = {target: 'the fewest bytes that hold the target', rule: 'named by a rule'};
 
 /** Shows a thumbnail beside the picture of its error, both parts of the sheet of the asset. */
 function texturePictures(texture) {

@@ -211,7 +211,7 @@ void StreamedTextures::recordEvictions(VkCommandBuffer commands)
     }
 }
 
-/// Create an image that copies can fill. False if the device has no memory for it, which is told.
+/// Create an image that copies can fill. Warns and returns false if the device has no memory for it.
 bool StreamedTextures::beginImage(VkCommandBuffer commands, std::optional<Held>& place, uint32_t image,
                                   uint32_t first_mip)
 {
