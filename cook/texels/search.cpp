@@ -251,15 +251,24 @@ size_t findCheapest(Estimates& estimates, size_t count)
     return low > 1 && holds(low - 2) ? low - 2 : low;
 }
 
-/// Encode, measure what is lost, and compare it with the target.
+/// Encode, measure what is lost, and compare it with the target. The area of a cut-out is kept as far as the
+/// target allows: scaled alphas are an error, too, and must not cost another format.
 Encoding encodeMeasured(const PlainImage& image, std::span<const SmoothCells> smooth,
                         const Candidate& candidate, const Target& target, Effort effort)
 {
     Encoding encoding{.candidate = candidate, .texels = encodeImage(image, candidate, effort)};
-    matchCoverage(image, candidate, effort, encoding.texels);
-    encoding.error = measureError(image, smooth, candidate, encoding.texels);
-    encoding.share = findShare(encoding.error, target);
-    return encoding;
+    const auto measure = [&](Encoding& measured)
+    {
+        measured.error = measureError(image, smooth, candidate, measured.texels);
+        measured.share = findShare(measured.error, target);
+    };
+    measure(encoding);
+    Encoding matched = encoding;
+    matchCoverage(image, candidate, effort, matched.texels);
+    if (matched.texels == encoding.texels)
+        return encoding;
+    measure(matched);
+    return matched.share <= std::max(encoding.share, 1.0) ? matched : encoding;
 }
 
 /// Encode in the cheapest compressed candidate that holds the target, or in the nearest; see encodeForTarget.

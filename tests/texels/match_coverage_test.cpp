@@ -134,6 +134,23 @@ TEST(MatchCoverage, theSearchMatchesForAnyNumberOfThreads)
     EXPECT_LT(one.error.coverage, measureError(plain, {}, one.candidate, unmatched).coverage / 2);
 }
 
+TEST(MatchCoverage, costsNoOtherFormat)
+{
+    const TestImage leaves = makeLeaves(128, 2, 0.2f, 0.02);
+    const PlainImage plain = leaves.plain(ImageRole::cutout, kRgb | kAlpha);
+    const std::vector<Candidate> all = listCandidates(plain, {.astc = true});
+    const Candidate& coarse = *findCandidate(all, astcFormat(TexelFormat::astc_srgb, 11));
+    std::vector<std::byte> encoded = encodeImage(plain, coarse, Effort::draft);
+    const double unmatched = measureError(plain, {}, coarse, encoded).error;
+    matchCoverage(plain, coarse, Effort::draft, encoded);
+    const double matched = measureError(plain, {}, coarse, encoded).error;
+    ASSERT_GT(matched, 1.5 * unmatched) << "scaled alphas are an error";
+    const std::array candidates{coarse, *findCandidate(all, TexelFormat::astc_srgb), all.back()};
+    const Target target{(matched + unmatched) / 2, 1};
+    EXPECT_EQ(encodeForTarget(plain, candidates, target, Effort::draft, false).candidate.traits,
+              coarse.traits);
+}
+
 } // namespace
 
 } // namespace hearth::texels
