@@ -56,6 +56,12 @@ PackModel makePack(std::mt19937& random, uint32_t image_count)
     return model;
 }
 
+/// Return the view of a pack in memory, which outlives it.
+PackView readView(const AlignedBytes& bytes)
+{
+    return PackView::read(ContainerReader::fromBytes(bytes.span(), "t", Check::everything).value()).value();
+}
+
 /// Bytes that the simulated device needs: more than the texels have, and not in proportion.
 uint64_t deviceBytes(const ImageRecord& image, uint32_t first_mip)
 {
@@ -289,8 +295,7 @@ TEST(TextureStream, imagesAreThePacksWhateverHappens)
         std::mt19937 random(seed);
         const PackModel model = makePack(random, 1 + random() % 8);
         const AlignedBytes bytes = model.bytes();
-        const PackView view =
-            PackView::read(ContainerReader::fromBytes(bytes.span(), "t", Check::everything).value()).value();
+        const PackView view = readView(bytes);
         Machine machine(view, random, static_cast<double>(random() % 12) / 10, 1 + random() % 8);
         machine.failures_of_64 = seed % 3 == 0 ? 6 : 0;
         std::vector<float> requests = randomRequests(view, random);
@@ -319,8 +324,7 @@ TEST(TextureStream, settlesWithWhatIsWanted)
         std::mt19937 random(seed);
         const PackModel model = makePack(random, 1 + random() % 8);
         const AlignedBytes bytes = model.bytes();
-        const PackView view =
-            PackView::read(ContainerReader::fromBytes(bytes.span(), "t", Check::everything).value()).value();
+        const PackView view = readView(bytes);
         Machine machine(view, random, 1, 4);
         for (int turn = 0; turn < 3; ++turn)
         {
@@ -333,8 +337,7 @@ TEST(TextureStream, settlesWithWhatIsWanted)
             {
                 if (requests[image] < 0 || machine.stream().graph().mipCount(image) == 0)
                     continue;
-                EXPECT_LE(machine.stream().residentMip(image),
-                          wantedMip(machine, image, requests[image]));
+                EXPECT_LE(machine.stream().residentMip(image), wantedMip(machine, image, requests[image]));
             }
         }
         EXPECT_EQ(machine.evictions, 0u) << "all fits";
@@ -349,8 +352,7 @@ TEST(TextureStream, aUseCountsTheAxisWithFewerTexels)
     model.image_data[0].assign(static_cast<size_t>(mipOffset(model.images[0], model.images[0].mip_count)),
                                std::byte{1});
     const AlignedBytes bytes = model.bytes();
-    const PackView view =
-        PackView::read(ContainerReader::fromBytes(bytes.span(), "t", Check::everything).value()).value();
+    const PackView view = readView(bytes);
     const auto texels = [&](std::array<float, 6> m)
     {
         TextureRef texture{};
