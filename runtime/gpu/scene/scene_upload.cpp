@@ -7,6 +7,7 @@
 #include "runtime/gpu/scene/texture_upload.h"
 #include "runtime/gpu/textures/streamed_textures.h"
 #include "runtime/pack/cut.h"
+#include "runtime/pack/memory_shares.h"
 #include "runtime/pack/scene_boxes.h"
 
 #include <algorithm>
@@ -340,29 +341,13 @@ std::vector<std::vector<pack::TextureUse>> listTextureUses(const formats::PackVi
     return uses;
 }
 
-struct MemoryShares
+/// Divide the budget of a scene. Pages take slots as large as the largest.
+pack::MemoryShares divideBudget(uint64_t budget, const pack::PageGraph& pages, const TextureSizes& sizes)
 {
-    uint64_t geometry, textures;
-};
-
-/// Divide the budget: both get what is always resident, and halves of the rest; what one cannot use, the
-/// other gets.
-MemoryShares splitBudget(uint64_t budget, const pack::PageGraph& pages, const TextureSizes& sizes)
-{
-    const pack::TextureGraph textures(sizes);
-    const pack::PageGraph& nodes = textures.nodes();
-    // pages take slots as large as the largest
-    uint64_t slot_bytes = 0, texture_use = 0;
+    uint32_t slot_bytes = 0;
     for (uint32_t page = 0; page < pages.pageCount(); ++page)
-        slot_bytes = std::max<uint64_t>(slot_bytes, pages.sizeBytes(page));
-    for (uint32_t node = 0; node < nodes.pageCount(); ++node)
-        texture_use += nodes.isPinned(node) ? 0 : nodes.sizeBytes(node);
-    const uint64_t geometry_use = (pages.pageCount() - pages.pinned().size()) * slot_bytes;
-    const uint64_t pinned = pages.pinnedBytes() + nodes.pinnedBytes();
-    const uint64_t rest = budget - std::min(budget, pinned);
-    const uint64_t unused = rest - std::min(rest, geometry_use);
-    const uint64_t textures_share = nodes.pinnedBytes() + std::min(texture_use, std::max(rest / 2, unused));
-    return {budget - std::min(budget, textures_share), textures_share};
+        slot_bytes = std::max(slot_bytes, pages.sizeBytes(page));
+    return pack::divideMemory(budget, pages.withSlotSize(slot_bytes), pack::TextureGraph(sizes).nodes());
 }
 
 /// Mark the materials that are used by meshes with sky visibility.
@@ -423,7 +408,7 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
         const pack::PageGraph graph = pack::PageGraph::of(pack);
         HEARTH_ASSIGN_OR_RETURN(const TextureSizes sizes,
                                 measureTextures(device, pack, findUsedImages(pack)));
-        const MemoryShares shares = splitBudget(options.memory_budget, graph, sizes);
+        const pack::MemoryShares shares = divideBudget(options.memory_budget, graph, sizes);
         HEARTH_ASSIGN_OR_RETURN(pool, placePinnedPages(pack, graph, shares.geometry));
         HEARTH_ASSIGN_OR_RETURN(scene->stream,
                                 SceneStream::create(device, pack, graph, pool, options.stream));

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/pack/memory_shares.h"
+
+#include <gtest/gtest.h>
+#include <random>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+using pack::MemoryShares;
+
+/// Graph of one pinned node, and of nodes that need it.
+pack::PageGraph makeGraph(uint32_t pinned_bytes, uint32_t node_bytes, uint32_t count)
+{
+    std::vector<pack::PageNode> nodes(count + 1);
+    nodes[0] = {.size_bytes = pinned_bytes, .holds_root = true, .needs = {}, .companions = {}};
+    for (uint32_t i = 1; i <= count; ++i)
+        nodes[i] = {.size_bytes = node_bytes, .holds_root = false, .needs = {0}, .companions = {}};
+    return pack::PageGraph(nodes);
+}
+
+TEST(MemoryShares, enoughForAllIsAllForBoth)
+{
+    const auto pages = makeGraph(10, 64, 20), textures = makeGraph(30, 100, 7);
+    const uint64_t all = 10 + 64 * 20 + 30 + 100 * 7;
+    const MemoryShares shares = divideMemory(all, pages, textures);
+    EXPECT_EQ(shares.geometry, 10u + 64 * 20);
+    EXPECT_EQ(shares.textures, 30u + 100 * 7);
+    EXPECT_EQ(divideMemory(all + 500, pages, textures).textures, shares.textures) << "images need no more";
+}
+
+TEST(MemoryShares, tooLittleIsDividedAsAllBytesAre)
+{
+    // 1000 and 3000 bytes beyond 100 and 200, of which a budget of 2300 holds half
+    const MemoryShares shares = divideMemory(2300, makeGraph(100, 100, 10), makeGraph(200, 100, 30));
+    EXPECT_EQ(shares.geometry, 100u + 500);
+    EXPECT_EQ(shares.textures, 200u + 1500);
+}
+
+TEST(MemoryShares, theSmallerSideHasAQuarterIfItCanUseIt)
+{
+    const MemoryShares few_pages = divideMemory(100'000, makeGraph(0, 1000, 40), makeGraph(0, 1000, 10'000));
+    EXPECT_EQ(few_pages.geometry, 25'000u);
+    EXPECT_EQ(few_pages.textures, 75'000u);
+    const MemoryShares fewer_pages = divideMemory(100'000, makeGraph(0, 1000, 9), makeGraph(0, 1000, 10'000));
+    EXPECT_EQ(fewer_pages.geometry, 9'000u);
+    const MemoryShares few_textures =
+        divideMemory(100'000, makeGraph(0, 1000, 10'000), makeGraph(0, 1000, 40));
+    EXPECT_EQ(few_textures.textures, 25'000u);
+}
+
+TEST(MemoryShares, neverExceedTheBudget)
+{
+    std::mt19937 random(1);
+    for (int i = 0; i < 1000; ++i)
+    {
+        const auto pages = makeGraph(random() % 100, 1 + random() % 100, random() % 20);
+        const auto textures = makeGraph(random() % 100, 1 + random() % 100, random() % 20);
+        const uint64_t budget = 200 + random() % 3000;
+        const MemoryShares shares = divideMemory(budget, pages, textures);
+        EXPECT_EQ(shares.geometry + shares.textures, budget);
+        EXPECT_GE(shares.geometry, pages.pinnedBytes());
+        EXPECT_GE(shares.textures, textures.pinnedBytes());
+    }
+}
+
+} // namespace
+
+} // namespace hearth::test
