@@ -2,6 +2,7 @@
 #include "cook/texels/astc_encoder.h"
 
 #include "formats/base/assert.h"
+#include "formats/base/half.h"
 
 #include <astcenc.h>
 
@@ -43,11 +44,24 @@ float findEffort(Effort effort, ImageRole role)
     return kEfforts[static_cast<uint32_t>(effort) + (role == ImageRole::normal ? 0 : 1)];
 }
 
+/// Return libastcenc's meaning of the numbers. Light has no alpha, whose endpoints need not be floats.
+astcenc_profile findProfile(TexelCoding coding)
+{
+    switch (coding)
+    {
+    case TexelCoding::srgb:
+        return ASTCENC_PRF_LDR_SRGB;
+    case TexelCoding::float_value:
+        return ASTCENC_PRF_HDR_RGB_LDR_A;
+    default:
+        return ASTCENC_PRF_LDR;
+    }
+}
+
 ContextKey makeKey(const Candidate& candidate, const StoredTexels& texels, Effort effort)
 {
     ContextKey key{candidate.traits->block_width, candidate.traits->block_height,
-                   candidate.traits->coding == TexelCoding::srgb ? ASTCENC_PRF_LDR_SRGB : ASTCENC_PRF_LDR, 0,
-                   findEffort(effort, texels.role)};
+                   findProfile(candidate.traits->coding), 0, findEffort(effort, texels.role)};
     if (texels.role == ImageRole::normal)
         key.flags |= ASTCENC_FLG_MAP_NORMAL;
     else if (candidate.has_two_parts)
@@ -107,15 +121,18 @@ std::vector<T> convertTexels(const StoredTexels& texels, const Convert& convert)
 
 std::vector<std::byte> encodeAstc(const Candidate& candidate, const StoredTexels& texels, Effort effort)
 {
-    HEARTH_ASSERT(candidate.traits->family == TexelFamily::astc);
+    const bool is_light = candidate.traits->family == TexelFamily::astc_hdr;
+    HEARTH_ASSERT(is_light || candidate.traits->family == TexelFamily::astc);
     std::vector<uint8_t> narrow;
     std::vector<float> wide;
-    if (texels.is_narrow)
+    if (is_light)
+        wide = convertTexels<float>(texels, [](uint16_t c) { return std::max(floatFromHalf(c), 0.0f); });
+    else if (texels.is_narrow)
         narrow = convertTexels<uint8_t>(texels, [](uint16_t c) { return narrowUnorm(c); });
     else
         wide = convertTexels<float>(texels, [](uint16_t c) { return static_cast<float>(c) / 65535.0f; });
-    void* slice = texels.is_narrow ? static_cast<void*>(narrow.data()) : wide.data();
-    astcenc_image image{texels.width, texels.height, 1, texels.is_narrow ? ASTCENC_TYPE_U8 : ASTCENC_TYPE_F32,
+    void* slice = wide.empty() ? static_cast<void*>(narrow.data()) : wide.data();
+    astcenc_image image{texels.width, texels.height, 1, wide.empty() ? ASTCENC_TYPE_U8 : ASTCENC_TYPE_F32,
                         &slice};
     std::vector<std::byte> blocks(
         static_cast<size_t>(formats::mipBytes(*candidate.traits, texels.width, texels.height)));

@@ -8,7 +8,7 @@ namespace hearth::texels
 {
 
 /// Encode texels; on the caller's thread. Blocks do not depend on each other.
-/// candidate  of family astc
+/// candidate  of family astc or astc_hdr
 std::vector<std::byte> encodeAstc(const Candidate& candidate, const StoredTexels& texels, Effort effort);
 
 } // namespace hearth::texels

@@ -175,20 +175,29 @@ Candidate layOutWithoutCompression(const PlainImage& image, const ChannelSplit& 
     return layOutInOrder(split, split.stored.size() == 1 ? TexelFormat::r8_unorm : TexelFormat::rg8_unorm);
 }
 
+std::vector<Candidate> listLightCandidates(const Families& families)
+{
+    std::vector<Candidate> candidates;
+    const auto add = [&](TexelFormat format) {
+        candidates.push_back({.traits = &texelTraits(format), .stored = {0, 1, 2, kStoredOne}});
+    };
+    if (families.bc)
+        add(TexelFormat::bc6h_ufloat);
+    if (families.astc_hdr)
+        for (uint32_t footprint = 0; footprint < kAstcFootprints; ++footprint)
+            add(astcFormat(TexelFormat::astc_float, footprint));
+    std::ranges::stable_sort(candidates, {}, &Candidate::bitsPerTexel);
+    add(TexelFormat::rgb9e5_float);
+    return candidates;
+}
+
 } // namespace
 
 std::vector<Candidate> listCandidates(const PlainImage& image, const Families& families)
 {
-    std::vector<Candidate> candidates;
     if (image.role == ImageRole::light)
-    {
-        if (families.bc)
-            candidates.push_back(
-                {.traits = &texelTraits(TexelFormat::bc6h_ufloat), .stored = {0, 1, 2, kStoredOne}});
-        candidates.push_back(
-            {.traits = &texelTraits(TexelFormat::rgb9e5_float), .stored = {0, 1, 2, kStoredOne}});
-        return candidates;
-    }
+        return listLightCandidates(families);
+    std::vector<Candidate> candidates;
     const ChannelSplit split = splitChannels(image);
     if (families.etc2)
         addBlockFormats(image, split, kEtc2, candidates);

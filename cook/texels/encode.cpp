@@ -161,6 +161,12 @@ double findPercentile(std::span<const uint32_t> histogram, ImageRole role)
     return maxTexelError(role);
 }
 
+/// Return 1 as a channel of a decoded texel.
+uint16_t findOne(const Candidate& candidate)
+{
+    return candidate.traits->coding == TexelCoding::float_value ? kHalfOne : uint16_t{0xFFFF};
+}
+
 } // namespace
 
 DecodedTexel readStored(const Candidate& candidate, const DecodedTexel& stored)
@@ -168,8 +174,7 @@ DecodedTexel readStored(const Candidate& candidate, const DecodedTexel& stored)
     uint8_t swizzle[4];
     for (uint32_t c = 0; c < 4; ++c)
         swizzle[c] = static_cast<uint8_t>(candidate.swizzle[c]);
-    const bool is_float = candidate.traits->coding == TexelCoding::float_value;
-    return applySwizzle(stored, swizzle, is_float ? halfFromFloat(1) : uint16_t{0xFFFF});
+    return applySwizzle(stored, swizzle, findOne(candidate));
 }
 
 StoredTexels arrangeChannels(const PlainImage& image, const Candidate& candidate, uint32_t width,
@@ -179,11 +184,12 @@ StoredTexels arrangeChannels(const PlainImage& image, const Candidate& candidate
     StoredTexels stored{.width = width, .height = height, .role = image.role};
     stored.is_narrow = texelBytes(image.record.format) == 4;
     stored.texels.reserve(texels.size());
+    const uint16_t one = findOne(candidate);
     for (const DecodedTexel& texel : texels)
     {
         DecodedTexel& next = stored.texels.emplace_back();
         for (uint32_t c = 0; c < 4; ++c)
-            next[c] = candidate.stored[c] == kStoredOne ? uint16_t{0xFFFF} : texel[candidate.stored[c]];
+            next[c] = candidate.stored[c] == kStoredOne ? one : texel[candidate.stored[c]];
     }
     return stored;
 }
@@ -193,17 +199,15 @@ std::vector<std::byte> encodeTexels(const Candidate& candidate, const StoredTexe
     switch (candidate.traits->family)
     {
     case TexelFamily::astc:
+    case TexelFamily::astc_hdr:
         return encodeAstc(candidate, texels, effort);
     case TexelFamily::plain:
         return encodePlain(*candidate.traits, texels.texels);
     case TexelFamily::etc2:
     case TexelFamily::bc:
-        return encodeBlocks(candidate, texels, effort);
-    case TexelFamily::astc_hdr:
         break;
     }
-    HEARTH_ASSERT(false); // no candidate has it
-    return {};
+    return encodeBlocks(candidate, texels, effort);
 }
 
 std::vector<std::byte> encodeImage(const PlainImage& image, const Candidate& candidate, Effort effort)

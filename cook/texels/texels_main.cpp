@@ -107,8 +107,10 @@ int program(int argc, char** argv)
     app.addOption("textures", arguments.textures_part, "textures part").required();
     app.addOption("-o,--output", arguments.output, "texels part to write").required();
     app.addOption("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
-    app.addOption("--family", arguments.families,
-                  "formats that the target reads: astc, etc2 or bc; may be repeated. Default: astc and etc2");
+    app.addOption(
+        "--family", arguments.families,
+        "formats that the target reads: astc, astc-hdr, etc2 or bc; may be repeated. Default: astc and "
+        "etc2");
     app.addOption("--quality", arguments.quality,
                   "target of error, and effort: draft 34 dB, normal 36.5, high 42 for colours")
         .choices({texels::effortNames().begin(), texels::effortNames().end()}, "QUALITY");

@@ -5,6 +5,7 @@
 #include "pipelines/settings/make_setting.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace hearth::cookers
 {
@@ -19,18 +20,19 @@ Status checkFamilies(const std::string& key, const std::string& text)
     texels::Families families;
     for (const std::string& family : valueTexts({text, ""}))
         if (!texels::addFamily(family, families))
-            return Error{Issue::profile_value, "", key, "\"" + family + "\" is none of astc, etc2, bc"};
+            return Error{Issue::profile_value, "", key,
+                         fmt::format("\"{}\" is none of {}", family, fmt::join(texels::familyNames(), ", "))};
     return success();
 }
 
 Setting familiesSetting(std::string key, std::string_view default_text)
 {
-    Setting setting{.key = std::move(key),
-                    .kind = Kind::texts,
-                    .what =
-                        "compressed formats that the target reads: astc, etc2 (with EAC), bc; an empty list "
-                        "keeps plain texels",
-                    .default_text = default_text};
+    Setting setting{
+        .key = std::move(key),
+        .kind = Kind::texts,
+        .what = "compressed formats that the target reads: astc, astc-hdr (light, by an extension), etc2 "
+                "(with EAC), bc; an empty list keeps plain texels",
+        .default_text = default_text};
     setting.check = checkFamilies;
     return setting;
 }

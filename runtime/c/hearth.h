@@ -111,7 +111,9 @@ enum
     HEARTH_FEATURE_FINAL_PASS = 16,
     /* 1.8: and the light methods that do not shade and light at once (HEARTH_LIGHTS_DEFERRED and on). Implies
      * HEARTH_MATERIALS_ID and HEARTH_FEATURE_FINAL_PASS, with linear colours of 8 bytes a pixel. */
-    HEARTH_FEATURE_DEFERRED = 32
+    HEARTH_FEATURE_DEFERRED = 32,
+    /* 1.8: the caller enabled textureCompressionASTC_HDR of VK_EXT_texture_compression_astc_hdr: use it */
+    HEARTH_FEATURE_ASTC_HDR = 64
 };
 
 /* Purpose of device memory. */

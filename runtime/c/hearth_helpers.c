@@ -13,6 +13,7 @@
 #define INSTANCE_FUNCTIONS(X)                                                                                \
     X(vkCreateDevice)                                                                                        \
     X(vkDestroyInstance)                                                                                     \
+    X(vkEnumerateDeviceExtensionProperties)                                                                  \
     X(vkEnumeratePhysicalDevices)                                                                            \
     X(vkGetDeviceProcAddr)                                                                                   \
     X(vkGetPhysicalDeviceFeatures)                                                                           \
@@ -60,6 +61,7 @@ struct hearth_device
     VkPhysicalDeviceProperties properties;
     uint32_t queue_family;
     int has_anisotropy; /* and enabled */
+    int has_astc_hdr;   /* and enabled */
     VkDevice device;
     VkQueue queue;
     VkCommandPool pool;
@@ -205,9 +207,29 @@ static hearth_result choose_physical_device(hearth_device* device, const char* n
     return lacking(device, name[0] == '\0' ? "no device has Vulkan 1.1" : detail);
 }
 
+/* True if the physical device has an extension. */
+static int has_extension(const hearth_device* device, const char* name)
+{
+    VkExtensionProperties* extensions;
+    uint32_t count = 0, i;
+    int found = 0;
+    device->vkEnumerateDeviceExtensionProperties(device->physical_device, NULL, &count, NULL);
+    extensions = calloc(count + 1, sizeof(*extensions));
+    if (extensions == NULL)
+        return 0;
+    device->vkEnumerateDeviceExtensionProperties(device->physical_device, NULL, &count, extensions);
+    for (i = 0; i < count && !found; ++i)
+        found = strcmp(extensions[i].extensionName, name) == 0;
+    free(extensions);
+    return found;
+}
+
 static hearth_result create_device(hearth_device* device)
 {
     const float priority = 1;
+    const char* const astc_hdr = VK_EXT_TEXTURE_COMPRESSION_ASTC_HDR_EXTENSION_NAME;
+    VkPhysicalDeviceTextureCompressionASTCHDRFeaturesEXT astc_hdr_feature = {
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TEXTURE_COMPRESSION_ASTC_HDR_FEATURES_EXT, NULL, VK_TRUE};
     VkPhysicalDeviceFeatures supported, enabled = {0};
     VkDeviceQueueCreateInfo queue = {VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
     VkDeviceCreateInfo info = {VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO};
@@ -223,6 +245,14 @@ static hearth_result create_device(hearth_device* device)
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
     info.pEnabledFeatures = &enabled;
+    /* devices with the extension have its feature (Vulkan, "Feature Requirements") */
+    device->has_astc_hdr = has_extension(device, astc_hdr);
+    if (device->has_astc_hdr)
+    {
+        info.pNext = &astc_hdr_feature;
+        info.enabledExtensionCount = 1;
+        info.ppEnabledExtensionNames = &astc_hdr;
+    }
     result = device->vkCreateDevice(device->physical_device, &info, NULL, &device->device);
     if (result != VK_SUCCESS)
         return failed(device, result, "create a device");
@@ -342,6 +372,8 @@ hearth_result hearth_device_describe(hearth_device* device, hearth_renderer_desc
     description->device = device->device;
     if (device->has_anisotropy)
         description->features |= HEARTH_FEATURE_SAMPLER_ANISOTROPY;
+    if (device->has_astc_hdr)
+        description->features |= HEARTH_FEATURE_ASTC_HDR;
     return HEARTH_OK;
 }
 

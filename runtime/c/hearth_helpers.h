@@ -57,8 +57,8 @@ typedef struct hearth_device_info
 /* errors: USAGE. */
 HEARTH_API hearth_result hearth_device_get_info(hearth_device* device, hearth_device_info* info);
 
-/* Set the handles of a renderer's description, and HEARTH_FEATURE_SAMPLER_ANISOTROPY if the device has it;
- * the rest stays. errors: USAGE. */
+/* Set the handles of a renderer's description, and HEARTH_FEATURE_SAMPLER_ANISOTROPY and
+ * HEARTH_FEATURE_ASTC_HDR if the device has them; the rest stays. errors: USAGE. */
 HEARTH_API hearth_result hearth_device_describe(hearth_device* device,
                                                 hearth_renderer_description* description);
 

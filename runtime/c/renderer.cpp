@@ -15,7 +15,7 @@ namespace
 
 constexpr uint32_t kFeatures = HEARTH_FEATURE_SAMPLER_ANISOTROPY | HEARTH_FEATURE_OVERDRAW |
                                HEARTH_FEATURE_DEBUG_LABELS | HEARTH_FEATURE_GRADING |
-                               HEARTH_FEATURE_FINAL_PASS | HEARTH_FEATURE_DEFERRED;
+                               HEARTH_FEATURE_FINAL_PASS | HEARTH_FEATURE_DEFERRED | HEARTH_FEATURE_ASTC_HDR;
 
 /// Sizes of the description in versions 1.0, and 1.1 to 1.7.
 constexpr size_t kOldDescriptionBytes[] = {offsetof(hearth_renderer_description, memory),
@@ -85,6 +85,7 @@ gpu::DeviceDescription toDevice(const hearth_renderer_description& description, 
                                   .physical_device = description.physical_device,
                                   .device = description.device,
                                   .sampler_anisotropy = has(HEARTH_FEATURE_SAMPLER_ANISOTROPY),
+                                  .astc_hdr = has(HEARTH_FEATURE_ASTC_HDR),
                                   .debug_labels = has(HEARTH_FEATURE_DEBUG_LABELS),
                                   .allocator = description.allocator,
                                   .pipeline_cache = description.pipeline_cache,

@@ -119,16 +119,15 @@ bool findQueueFamily(const HostTable& vk, VkPhysicalDevice device, VkSurfaceKHR 
     return false;
 }
 
-bool hasSwapchains(const HostTable& vk, VkPhysicalDevice device)
+bool hasExtension(const HostTable& vk, VkPhysicalDevice device, const char* name)
 {
     uint32_t count = 0;
     vk.vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
     std::vector<VkExtensionProperties> extensions(count);
     vk.vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
     return std::any_of(extensions.begin(), extensions.end(),
-                       [](const VkExtensionProperties& extension) {
-                           return std::strcmp(extension.extensionName, VK_KHR_SWAPCHAIN_EXTENSION_NAME) == 0;
-                       });
+                       [&](const VkExtensionProperties& extension)
+                       { return std::strcmp(extension.extensionName, name) == 0; });
 }
 
 } // namespace
@@ -261,7 +260,7 @@ Status VulkanHost::chooseDevice(const std::string& name)
         const bool matches = lowerCase(properties.deviceName).find(lowerCase(name)) != std::string::npos;
         if (!matches || properties.apiVersion < VK_API_VERSION_1_1 ||
             !findQueueFamily(*vk_, device, surface_, family) ||
-            (surface_ != VK_NULL_HANDLE && !hasSwapchains(*vk_, device)) ||
+            (surface_ != VK_NULL_HANDLE && !hasExtension(*vk_, device, VK_KHR_SWAPCHAIN_EXTENSION_NAME)) ||
             deviceTypeRank(properties.deviceType) <= best)
             continue;
         best = deviceTypeRank(properties.deviceType);
@@ -300,12 +299,22 @@ Status VulkanHost::createDevice()
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
     info.pEnabledFeatures = &enabled;
-    const char* const swapchains = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+    std::vector<const char*> extensions;
     if (surface_ != VK_NULL_HANDLE)
+        extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    // devices with the extension have its feature (Vulkan, "Feature Requirements")
+    const char* const astc_hdr = VK_EXT_TEXTURE_COMPRESSION_ASTC_HDR_EXTENSION_NAME;
+    astc_hdr_ = hasExtension(*vk_, physical_device_, astc_hdr);
+    VkPhysicalDeviceTextureCompressionASTCHDRFeaturesEXT astc_hdr_feature{};
+    astc_hdr_feature.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TEXTURE_COMPRESSION_ASTC_HDR_FEATURES_EXT;
+    astc_hdr_feature.textureCompressionASTC_HDR = VK_TRUE;
+    if (astc_hdr_)
     {
-        info.enabledExtensionCount = 1;
-        info.ppEnabledExtensionNames = &swapchains;
+        extensions.push_back(astc_hdr);
+        info.pNext = &astc_hdr_feature;
     }
+    info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
     HEARTH_TRY_VK(vk_->vkCreateDevice(physical_device_, &info, nullptr, &device_), "create a device");
 #define HEARTH_LOAD(name) vk_->name = reinterpret_cast<PFN_##name>(vk_->vkGetDeviceProcAddr(device_, #name));
     HEARTH_HOST_DEVICE_FUNCTIONS(HEARTH_LOAD)
@@ -327,6 +336,7 @@ gpu::DeviceDescription VulkanHost::description() const
             .physical_device = physical_device_,
             .device = device_,
             .sampler_anisotropy = sampler_anisotropy_,
+            .astc_hdr = astc_hdr_,
             .debug_labels = messenger_ != VK_NULL_HANDLE}; // messages then name the pass
 }
 

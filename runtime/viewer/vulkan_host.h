@@ -98,6 +98,7 @@ private:
     VkCommandPool command_pool_ = VK_NULL_HANDLE;
     std::vector<VkQueryPool> query_pools_;
     bool sampler_anisotropy_ = false;
+    bool astc_hdr_ = false;
     bool software_ = false;
     double timestamp_period_ns_ = 1;
     std::string device_name_;

@@ -10,11 +10,12 @@ namespace hearth::texels::test
 std::vector<float> decodeByAstcenc(const formats::TexelFormatTraits& traits, uint32_t width, uint32_t height,
                                    std::span<const std::byte> mip)
 {
-    const bool is_srgb = traits.coding == formats::TexelCoding::srgb;
+    const astcenc_profile profile = traits.coding == formats::TexelCoding::srgb ? ASTCENC_PRF_LDR_SRGB
+                                    : traits.coding == formats::TexelCoding::float_value ? ASTCENC_PRF_HDR
+                                                                                         : ASTCENC_PRF_LDR;
     astcenc_config config{};
-    EXPECT_EQ(astcenc_config_init(is_srgb ? ASTCENC_PRF_LDR_SRGB : ASTCENC_PRF_LDR, traits.block_width,
-                                  traits.block_height, 1, ASTCENC_PRE_FASTEST, ASTCENC_FLG_DECOMPRESS_ONLY,
-                                  &config),
+    EXPECT_EQ(astcenc_config_init(profile, traits.block_width, traits.block_height, 1, ASTCENC_PRE_FASTEST,
+                                  ASTCENC_FLG_DECOMPRESS_ONLY, &config),
               ASTCENC_SUCCESS);
     astcenc_context* context = nullptr;
     EXPECT_EQ(astcenc_context_alloc(&config, 1, &context), ASTCENC_SUCCESS);

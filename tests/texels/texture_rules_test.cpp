@@ -86,7 +86,7 @@ TEST(TextureRules, faultsNameTheirPlaceAndWhatIsRight)
     EXPECT_EQ(fault("textures.image=[{name='a',quality='best'}]"),
               "textures.image[0].quality: \"best\" is none of draft, normal, high");
     EXPECT_EQ(fault("textures.image=[{name='a',families=['pvrtc']}]"),
-              "textures.image[0].families: \"pvrtc\" is none of astc, etc2, bc");
+              "textures.image[0].families: \"pvrtc\" is none of astc, astc-hdr, etc2, bc");
     EXPECT_EQ(fault("textures.image=[{name='a',targets=3}]"),
               "textures.image[0]: \"targets\" is not known: did you mean 'target'?");
     EXPECT_EQ(fault("textures.image=[]"), "textures.image: must be an array of at least one table");

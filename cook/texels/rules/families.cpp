@@ -9,34 +9,44 @@ namespace hearth::texels
 namespace
 {
 
+struct Family
+{
+    std::string_view name;
+    bool Families::*member;
+};
+
+constexpr Family kFamilies[] = {{"astc", &Families::astc},
+                                {"astc-hdr", &Families::astc_hdr},
+                                {"etc2", &Families::etc2},
+                                {"bc", &Families::bc}};
+
 constexpr std::string_view kEffortNames[] = {"draft", "normal", "high"};
 
 } // namespace
 
+std::vector<std::string> familyNames()
+{
+    std::vector<std::string> names;
+    for (const Family& family : kFamilies)
+        names.emplace_back(family.name);
+    return names;
+}
+
 bool addFamily(std::string_view name, Families& families)
 {
-    if (name == "astc")
-        families.astc = true;
-    else if (name == "etc2")
-        families.etc2 = true;
-    else if (name == "bc")
-        families.bc = true;
-    else
+    const Family* const found = std::ranges::find(kFamilies, name, &Family::name);
+    if (found == std::end(kFamilies))
         return false;
+    families.*found->member = true;
     return true;
 }
 
 std::string familiesText(const Families& families)
 {
     std::string text;
-    const auto add = [&](bool has, const char* name)
-    {
-        if (has)
-            text += (text.empty() ? "" : ", ") + std::string(name);
-    };
-    add(families.astc, "astc");
-    add(families.etc2, "etc2");
-    add(families.bc, "bc");
+    for (const Family& family : kFamilies)
+        if (families.*family.member)
+            text += (text.empty() ? "" : ", ") + std::string(family.name);
     return text.empty() ? "none" : text;
 }
 

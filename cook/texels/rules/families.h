@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace hearth::texels
 {
@@ -16,13 +17,17 @@ namespace hearth::texels
 struct Families
 {
     bool astc = false;
+    bool astc_hdr = false; ///< light, by an extension
     bool etc2 = false;
     bool bc = false;
 
     friend bool operator==(const Families&, const Families&) = default;
 };
 
-/// Parse the name of a family: "astc", "etc2" or "bc". False if there is none of that name.
+/// Return the names of families: "astc", "astc-hdr", "etc2", "bc".
+std::vector<std::string> familyNames();
+
+/// Add the family with a name. False if there is none of that name.
 bool addFamily(std::string_view name, Families& families);
 
 /// Return the names of the families: "astc, etc2"; "none" without any.

@@ -79,7 +79,7 @@ Result<Families> readFamilies(const TomlNode& node, const Location& place)
     Families families;
     for (const std::string& name : names)
         if (!addFamily(name, families))
-            return unknownWord(place, Issue::profile_value, name, {"astc", "etc2", "bc"});
+            return unknownWord(place, Issue::profile_value, name, familyNames());
     return families;
 }
 

@@ -62,6 +62,7 @@ std::vector<std::byte> decodeMips(const formats::ImageRecord& record, std::span<
 std::string familyNames(const Device& device)
 {
     constexpr std::pair<TexelFormat, const char*> kFamilies[] = {{TexelFormat::astc_unorm, "ASTC"},
+                                                                 {TexelFormat::astc_float, "ASTC HDR"},
                                                                  {TexelFormat::etc2_rgb8_unorm, "ETC2"},
                                                                  {TexelFormat::bc7_unorm, "BC"}};
     std::string names;

@@ -53,7 +53,7 @@ Result<Device> makeDevice(const DeviceDescription& description, std::span<const 
         {
             const formats::TexelFormatTraits& traits = *formats::findTexelFormat(format);
             device.texel_formats[format] =
-                traits.family != formats::TexelFamily::astc_hdr &&
+                (traits.family != formats::TexelFamily::astc_hdr || description.astc_hdr) &&
                 has(static_cast<VkFormat>(traits.vulkan_format),
                     VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT | VK_FORMAT_FEATURE_TRANSFER_DST_BIT);
         }

@@ -25,7 +25,7 @@ struct MessageHook
 };
 
 /// Objects that the caller created and keeps alive longer than everything created from them. Vulkan 1.1; no
-/// optional feature is required. Uses samplerAnisotropy if the caller enabled it and sets the flag.
+/// optional feature is required. Uses those that the caller enabled and sets the flags of.
 struct DeviceDescription
 {
     PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
@@ -33,6 +33,8 @@ struct DeviceDescription
     VkPhysicalDevice physical_device = VK_NULL_HANDLE;
     VkDevice device = VK_NULL_HANDLE;
     bool sampler_anisotropy = false;
+    /// textureCompressionASTC_HDR, of VK_EXT_texture_compression_astc_hdr
+    bool astc_hdr = false;
     /// The caller enabled VK_EXT_debug_utils: passes are named in command buffers.
     bool debug_labels = false;
     const VkAllocationCallbacks* allocator = nullptr;
@@ -59,7 +61,7 @@ struct Device
     MessageHook message_hook{};
     bool sampler_anisotropy = false;
     /// [TexelFormat]: textures may have the format and be filtered. Features for compressed formats need not
-    /// be enabled. ASTC of floats needs an extension that no caller can enable here: it is never set.
+    /// be enabled, but for ASTC of floats.
     std::bitset<formats::kTexelFormatEnd> texel_formats{};
     /// Compares with depth images of these formats may be bilinear, which Vulkan does not require.
     bool filters_d16 = false;
