@@ -23,7 +23,7 @@ function totalsSection(data) {
     total(all ? percent(kept / all) : '–', 'cache hits', `${count(kept)} of ${plural(all, 'action')}`),
     total(bytes(totals.bytes_out), 'pack', data.status !== 'failed' ? 'of ' + bytes(totals.bytes_in) + ' of sources' : 'not made'),
     total(count(triangles), 'source triangles', plural(data.meshes.length, 'mesh').replace('meshs', 'meshes')),
-    total(count(data.textures.length), data.textures.length === 1 ? 'texture' : 'textures', bytes(texels) + ' decoded, with mips'),
+    total(count(data.textures.length), data.textures.length === 1 ? 'texture' : 'textures', bytes(texels) + ' on the GPU'),
     total(totals.peak_rss ? bytes(totals.peak_rss) : '–', 'most memory', 'of one cooker'),
     total(count(data.warnings), data.warnings === 1 ? 'warning' : 'warnings', plural(data.dropped, 'part') + ' of sources left out'));
 }
