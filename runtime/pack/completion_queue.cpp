@@ -2,11 +2,13 @@
 #include "runtime/pack/completion_queue.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace hearth::pack
 {
 
-CompletionQueue::CompletionQueue(size_t max_size)
+CompletionQueue::CompletionQueue(size_t max_size, std::function<void(uint32_t page)> finish)
+    : finish_(std::move(finish))
 {
     pushed_.reserve(max_size);
     taken_.reserve(max_size);
@@ -14,6 +16,8 @@ CompletionQueue::CompletionQueue(size_t max_size)
 
 void CompletionQueue::push(Completion completion)
 {
+    if (completion.ok && finish_ != nullptr)
+        finish_(completion.page);
     const std::lock_guard lock(mutex_);
     pushed_.push_back(completion);
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <mutex>
 #include <span>
 #include <vector>
@@ -21,7 +22,9 @@ class CompletionQueue
 {
 public:
     /// max_size  maximum of queued completions; later calls allocate nothing
-    explicit CompletionQueue(size_t max_size);
+    /// finish    called by push with the page of a read that succeeded, before its completion is queued and
+    ///           without the lock; null: nothing is left to do
+    explicit CompletionQueue(size_t max_size, std::function<void(uint32_t page)> finish = nullptr);
 
     /// Push a completion, from any thread. Writes before the push are visible to the thread that takes it.
     void push(Completion completion);
@@ -31,6 +34,7 @@ public:
     std::span<const Completion> take();
 
 private:
+    std::function<void(uint32_t page)> finish_;
     std::mutex mutex_;
     std::vector<Completion> pushed_; ///< guarded by mutex_
     std::vector<Completion> taken_;

@@ -24,14 +24,8 @@ MemoryShares divideMemory(uint64_t budget_bytes, const PageGraph& pages, const P
 {
     const uint64_t geometry = streamedBytes(pages), texels = streamedBytes(textures);
     const uint64_t rest = budget_bytes - std::min(budget_bytes, pages.pinnedBytes() + textures.pinnedBytes());
-    const uint64_t quarter = rest / 4;
-    const double part =
-        static_cast<double>(texels) / static_cast<double>(std::max<uint64_t>(geometry + texels, 1));
-    uint64_t share = texels;
-    if (geometry + texels > rest)
-        share = std::clamp(static_cast<uint64_t>(part * static_cast<double>(rest)), std::min(texels, quarter),
-                           rest - std::min(geometry, quarter));
-    share += textures.pinnedBytes();
+    const uint64_t unused = rest - std::min(rest, geometry);
+    const uint64_t share = textures.pinnedBytes() + std::min(texels, std::max(rest / 2, unused));
     return {budget_bytes - std::min(budget_bytes, share), share};
 }
 

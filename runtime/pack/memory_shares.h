@@ -14,10 +14,9 @@ struct MemoryShares
     uint64_t textures = 0;
 };
 
-/// Divide the budget. Both sides get what is always resident. The rest is divided as the bytes of all pages
-/// and of all mips, since views that want too much have both coarsened by a common factor then: the bytes of
-/// either fall with its square. A side gets at least a quarter of the rest, as far as it has use for it: a
-/// view may want all pages and few mips, or the reverse.
+/// Divide the budget. Both sides get what is always resident, and halves of the rest; what one cannot use, the
+/// other gets. The bytes that a view wants of either are bounded by its pixels, however large the pack is: so
+/// shares in proportion to all pages and all mips would leave the smaller side short.
 /// pages     with the sizes of their slots (PageGraph::withSlotSize)
 /// textures  TextureGraph::nodes
 MemoryShares divideMemory(uint64_t budget_bytes, const PageGraph& pages, const PageGraph& textures);

@@ -24,7 +24,11 @@ TextureStream::TextureStream(const formats::PackView& view, TextureGraph graph, 
       staging_(staging),
       graph_(std::move(graph)),
       residency_(std::move(residency)),
-      queue_(std::make_unique<CompletionQueue>(staging.size() / options.slot_bytes)),
+      decoder_(std::make_unique<PieceDecoder>(view)),
+      queue_(std::make_unique<CompletionQueue>(
+          staging.size() / options.slot_bytes,
+          [decoder = decoder_.get(), first = static_cast<uint32_t>(view.pages().size())](uint32_t number)
+          { decoder->finish(number - first); })),
       staging_slots_(static_cast<uint32_t>(staging.size() / options.slot_bytes)),
       staging_of_piece_(view.texturePieces().size(), kInvalidIndex)
 {
@@ -33,6 +37,20 @@ TextureStream::TextureStream(const formats::PackView& view, TextureGraph graph, 
         const bool is_streamed = graph_.mipCount(image) > 0;
         pieces_.push_back(is_streamed ? formats::listTexturePieces(view.images()[image])
                                       : std::vector<formats::TexturePiece>());
+    }
+    findFinestMips();
+}
+
+void TextureStream::findFinestMips()
+{
+    const PageGraph& nodes = graph_.nodes();
+    for (uint32_t image = 0; image < pieces_.size(); ++image)
+    {
+        uint32_t mip = std::max(graph_.mipCount(image), 1u) - 1;
+        uint64_t bytes = nodes.pinnedBytes();
+        while (mip > 0 && (bytes += nodes.sizeBytes(graph_.node({image, mip - 1}))) <= options_.budget_bytes)
+            --mip;
+        finest_mips_.push_back(mip);
     }
 }
 
@@ -129,7 +147,7 @@ template <typename Function>
 void TextureStream::forEachWanted(const TextureUse& use, float pixels_log2, const Function& function) const
 {
     const uint32_t count = graph_.mipCount(use.image);
-    for (uint32_t mip = 0; mip + 1 < count; ++mip)
+    for (uint32_t mip = finest_mips_[use.image]; mip + 1 < count; ++mip)
         if (const float priority = mipPriority(use, pixels_log2, mip) / residency_.errorScale(); priority > 1)
             function(graph_.node({use.image, mip}), priority);
 }
@@ -190,9 +208,11 @@ void TextureStream::startRead(Load& load)
     ++load.reads;
     ++reads_in_flight_;
     const auto number = static_cast<uint32_t>(view_->pages().size()) + piece;
-    options_.read(number,
-                  staging_.subspan(size_t{slot} * options_.slot_bytes, view_->texturePieces()[piece].size),
-                  ReadDone(*queue_, number));
+    std::span<std::byte> destination =
+        staging_.subspan(size_t{slot} * options_.slot_bytes, options_.slot_bytes);
+    if (!options_.decoded.empty() && options_.decoded[mip.image])
+        destination = decoder_->begin(mip.image, piece, pieces_[mip.image][own], destination);
+    options_.read(number, destination.first(view_->texturePieces()[piece].size), ReadDone(*queue_, number));
 }
 
 uint32_t TextureStream::residentMip(uint32_t image) const

@@ -6,6 +6,7 @@
 #include "formats/pack/texture_pieces.h"
 #include "runtime/pack/completion_queue.h"
 #include "runtime/pack/page_stream.h"
+#include "runtime/pack/piece_decoder.h"
 #include "runtime/pack/residency.h"
 #include "runtime/pack/staging_slots.h"
 #include "runtime/pack/texture_graph.h"
@@ -20,10 +21,11 @@ namespace hearth::pack
 
 struct TextureStreamOptions
 {
-    uint64_t budget_bytes = 0; ///< of all images that are streamed, and of those that replace them
-    uint32_t max_loads = 32;   ///< mips in flight
-    uint32_t slot_bytes = 0;   ///< of staging memory; holds every piece
-    PageReader read;           ///< numbers of pieces follow those of the pages: PackView::decodePiece
+    uint64_t budget_bytes = 0;   ///< of all images that are streamed, and of those that replace them
+    uint32_t max_loads = 32;     ///< mips in flight
+    uint32_t slot_bytes = 0;     ///< of staging memory; holds every piece, decoded if need be
+    std::vector<bool> decoded{}; ///< [image] pieces arrive in staging memory as decodeTexels; empty: none
+    PageReader read;             ///< numbers of pieces follow those of the pages: PackView::decodePiece
 };
 
 /// Copy of a decoded piece from its staging slot into the new image of its mip.
@@ -66,7 +68,8 @@ public:
     /// Begin a frame, as PageStream::beginFrame does.
     TextureChanges beginFrame(uint64_t serial, uint64_t completed_serial);
 
-    /// Request the mips that a view wants of an image.
+    /// Request the mips that a view wants of an image. Those that the budget could not hold beside the tails of
+    /// all images are not asked for: they would blur all other images in vain.
     /// pixels_log2  as mipPriority
     void request(const TextureUse& use, float pixels_log2);
 
@@ -98,6 +101,7 @@ private:
     };
     TextureStream(const formats::PackView& view, TextureGraph graph, Residency residency,
                   const TextureStreamOptions& options, std::span<std::byte> staging);
+    void findFinestMips();
     void takeCompletions();
     /// Call function(node, priority) for the mips that a view wants of an image.
     template <typename Function>
@@ -113,6 +117,8 @@ private:
     std::span<std::byte> staging_;
     TextureGraph graph_;
     Residency residency_;
+    std::vector<uint32_t> finest_mips_;     ///< [image] that the budget can hold; of images that are streamed
+    std::unique_ptr<PieceDecoder> decoder_; // the queue keeps its address
     std::unique_ptr<CompletionQueue> queue_; // readers keep its address
 
     std::vector<std::vector<formats::TexturePiece>> pieces_; ///< [image]; empty: it is not streamed

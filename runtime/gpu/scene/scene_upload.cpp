@@ -407,7 +407,7 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
     {
         const pack::PageGraph graph = pack::PageGraph::of(pack);
         HEARTH_ASSIGN_OR_RETURN(const TextureSizes sizes,
-                                measureTextures(device, pack, findUsedImages(pack)));
+                                measureTextures(device, pack, findUsedImages(pack), options.decode_textures));
         const pack::MemoryShares shares = divideBudget(options.memory_budget, graph, sizes);
         HEARTH_ASSIGN_OR_RETURN(pool, placePinnedPages(pack, graph, shares.geometry));
         HEARTH_ASSIGN_OR_RETURN(scene->stream,

@@ -4,9 +4,11 @@
 #include "formats/gpu_shared/decisions.h"
 #include "runtime/gpu/textures/image_layout.h"
 #include "runtime/gpu/vulkan/image_barrier.h"
+#include "runtime/pack/decoded_texels.h"
 
 #include <algorithm>
 #include <string>
+#include <utility>
 
 namespace hearth::gpu
 {
@@ -20,21 +22,32 @@ constexpr VkImageUsageFlags kStreamedUsage =
 /// Slots of staging memory for each mip in flight: a mip of 1024 x 1024 texels of a byte has 16 pieces.
 constexpr uint32_t kSlotsPerLoad = 2;
 
+/// Bytes of staging memory beyond which there are fewer slots: decoded pieces take up to 2.4 MB.
+constexpr VkDeviceSize kMaxStagingBytes = 16 << 20;
+
+/// Return the format of an image on the device.
+const formats::TexelFormatTraits& deviceFormat(const Device& device, const formats::ImageRecord& record)
+{
+    const formats::TexelFormatTraits& traits = *formats::findTexelFormat(record.format);
+    return device.texel_formats[record.format] ? traits : formats::texelTraits(pack::decodedFormat(traits));
+}
+
 /// Describe an image that begins with a mip of the pack's.
-ImageDescription describe(const formats::ImageRecord& record, uint32_t first_mip)
+ImageDescription describe(const Device& device, const formats::ImageRecord& record, uint32_t first_mip)
 {
     const formats::MipExtent extent = formats::mipExtent(record, first_mip);
-    return {.format = static_cast<VkFormat>(formats::findTexelFormat(record.format)->vulkan_format),
+    return {.format = static_cast<VkFormat>(deviceFormat(device, record).vulkan_format),
             .extent = {extent.width, extent.height},
             .mip_count = record.mip_count - first_mip,
             .usage = kStreamedUsage,
             .components = viewComponents(record)};
 }
 
-bool isStreamed(const Device& device, const formats::ImageRecord& record)
+bool isStreamed(const Device& device, const formats::ImageRecord& record, bool decodes)
 {
-    return device.texel_formats[record.format] && record.pieces.count > 0 &&
-           formats::firstTailMip(record) > 0 &&
+    const bool is_readable = device.texel_formats[record.format] || decodes ||
+                             formats::findTexelFormat(record.format)->family == formats::TexelFamily::plain;
+    return is_readable && record.pieces.count > 0 && formats::firstTailMip(record) > 0 &&
            std::max(record.width, record.height) <= device.limits.maxImageDimension2D;
 }
 
@@ -53,28 +66,38 @@ float pixelsFromRequest(uint32_t request)
            kLogarithmError;
 }
 
-uint32_t maxPieceBytes(const formats::PackView& pack)
+/// Return the bytes of a slot of staging memory: those of the largest piece on the device.
+/// sizes  of images that are streamed
+uint32_t findSlotBytes(const Device& device, const formats::PackView& pack, const TextureSizes& sizes)
 {
-    uint32_t bytes = formats::kMaxPieceBytes;
-    for (const formats::TexturePieceRecord& piece : pack.texturePieces())
-        bytes = std::max(bytes, piece.size);
-    return (bytes + 63) / 64 * 64;
+    size_t bytes = formats::kMaxPieceBytes;
+    for (uint32_t image = 0; image < sizes.size(); ++image)
+    {
+        const formats::ImageRecord& record = pack.images()[image];
+        if (!sizes[image].empty())
+            for (const formats::TexturePiece& piece : formats::listTexturePieces(record))
+                bytes =
+                    std::max(bytes, device.texel_formats[record.format] ? size_t{piece.size}
+                                                                        : pack::decodedBytes(record, piece));
+    }
+    return static_cast<uint32_t>((bytes + 63) / 64 * 64);
 }
 
 } // namespace
 
 Result<TextureSizes> measureTextures(const Device& device, const formats::PackView& pack,
-                                     const std::vector<bool>& used)
+                                     const std::vector<bool>& used, bool decodes)
 {
     TextureSizes sizes(pack.images().size());
     for (uint32_t image = 0; image < sizes.size(); ++image)
     {
         const formats::ImageRecord& record = pack.images()[image];
-        if (!used[image] || !isStreamed(device, record))
+        if (!used[image] || !isStreamed(device, record, decodes))
             continue;
         for (uint32_t mip = 0; mip <= formats::firstTailMip(record); ++mip)
         {
-            HEARTH_ASSIGN_OR_RETURN(const VkDeviceSize bytes, measureImage(device, describe(record, mip)));
+            HEARTH_ASSIGN_OR_RETURN(const VkDeviceSize bytes,
+                                    measureImage(device, describe(device, record, mip)));
             sizes[image].push_back(bytes);
         }
     }
@@ -84,8 +107,13 @@ Result<TextureSizes> measureTextures(const Device& device, const formats::PackVi
 Result<std::unique_ptr<StreamedTextures>>
 StreamedTextures::create(const Device& device, const formats::PackView& pack, StreamedTextureOptions options)
 {
-    const uint32_t slot_bytes = maxPieceBytes(pack);
-    const VkDeviceSize staging_bytes = VkDeviceSize{kSlotsPerLoad} * options.max_loads * slot_bytes;
+    const uint32_t slot_bytes = findSlotBytes(device, pack, options.sizes);
+    const VkDeviceSize slots = std::clamp<VkDeviceSize>(kMaxStagingBytes / slot_bytes, 1,
+                                                        VkDeviceSize{kSlotsPerLoad} * options.max_loads);
+    const VkDeviceSize staging_bytes = slots * slot_bytes;
+    std::vector<bool> decoded;
+    for (const formats::ImageRecord& record : pack.images())
+        decoded.push_back(!device.texel_formats[record.format]);
     MemoryArena arena(device, 0);
     HEARTH_ASSIGN_OR_RETURN(
         Buffer staging,
@@ -96,6 +124,7 @@ StreamedTextures::create(const Device& device, const formats::PackView& pack, St
                                     {.budget_bytes = options.budget_bytes,
                                      .max_loads = options.max_loads,
                                      .slot_bytes = slot_bytes,
+                                     .decoded = std::move(decoded),
                                      .read = options.read},
                                     {staging.mapped, static_cast<size_t>(staging_bytes)}));
     return std::unique_ptr<StreamedTextures>(new StreamedTextures(device, pack, std::move(options),
@@ -134,11 +163,18 @@ Status StreamedTextures::uploadTails(Uploader& uploader)
             continue;
         const formats::TexturePiece& tail = pieces_[image].back();
         std::vector<std::byte> texels(tail.size);
-        const formats::Range& pieces = pack_.images()[image].pieces;
+        const formats::ImageRecord& record = pack_.images()[image];
+        const formats::Range& pieces = record.pieces;
         HEARTH_TRY(pack_.decodePiece(pieces.first + pieces.count - 1, texels));
+        if (!device_.texel_formats[record.format])
+        {
+            const std::vector<std::byte> stored = std::exchange(texels, {});
+            texels.resize(pack::decodedBytes(record, tail));
+            pack::decodeTexels(record, tail, stored, texels);
+        }
         HEARTH_ASSIGN_OR_RETURN(images_[image].current, makeImage(image, tail.mip));
-        HEARTH_TRY(uploader.upload(images_[image].current->image, texels,
-                                   blockSize(*formats::findTexelFormat(pack_.images()[image].format))));
+        HEARTH_TRY(
+            uploader.upload(images_[image].current->image, texels, blockSize(deviceFormat(device_, record))));
     }
     return success();
 }
@@ -146,7 +182,8 @@ Status StreamedTextures::uploadTails(Uploader& uploader)
 Result<StreamedTextures::Held> StreamedTextures::makeImage(uint32_t image, uint32_t first_mip) const
 {
     Held held{MemoryArena(device_, 0), {}, first_mip};
-    HEARTH_ASSIGN_OR_RETURN(held.image, held.arena.createImage(describe(pack_.images()[image], first_mip)));
+    HEARTH_ASSIGN_OR_RETURN(held.image,
+                            held.arena.createImage(describe(device_, pack_.images()[image], first_mip)));
     return held;
 }
 

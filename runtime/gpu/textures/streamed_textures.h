@@ -15,13 +15,14 @@ namespace hearth::gpu
 {
 
 /// Bytes on the device of the images that can be streamed: [image][mip] of an image that begins with this
-/// mip, as TextureGraph takes them. Images that no material uses, that have no pieces or only a tail, or
-/// whose format the device cannot sample are not streamed: they have none.
+/// mip, as TextureGraph takes them. Images that no material uses, or that have no pieces or only a tail, are
+/// not streamed: they have none.
 using TextureSizes = std::vector<std::vector<uint64_t>>;
 
 /// Ask the device for the sizes. errors: device_failed.
+/// decodes  compressed formats that the device lacks are decoded; else such images are not streamed
 Result<TextureSizes> measureTextures(const Device& device, const formats::PackView& pack,
-                                     const std::vector<bool>& used);
+                                     const std::vector<bool>& used, bool decodes);
 
 struct StreamedTextureOptions
 {

@@ -32,34 +32,34 @@ TEST(MemoryShares, enoughForAllIsAllForBoth)
     EXPECT_EQ(divideMemory(all + 500, pages, textures).textures, shares.textures) << "images need no more";
 }
 
-TEST(MemoryShares, tooLittleIsDividedAsAllBytesAre)
+TEST(MemoryShares, tooLittleIsHalved)
 {
-    // 1000 and 3000 bytes beyond 100 and 200, of which a budget of 2300 holds half
-    const MemoryShares shares = divideMemory(2300, makeGraph(100, 100, 10), makeGraph(200, 100, 30));
+    // beyond the 300 bytes that are always resident
+    const MemoryShares shares = divideMemory(1300, makeGraph(100, 100, 30), makeGraph(200, 100, 10));
     EXPECT_EQ(shares.geometry, 100u + 500);
-    EXPECT_EQ(shares.textures, 200u + 1500);
+    EXPECT_EQ(shares.textures, 200u + 500);
 }
 
-TEST(MemoryShares, theSmallerSideHasAQuarterIfItCanUseIt)
+TEST(MemoryShares, whatOneSideCannotUseIsForTheOther)
 {
-    const MemoryShares few_pages = divideMemory(100'000, makeGraph(0, 1000, 40), makeGraph(0, 1000, 10'000));
-    EXPECT_EQ(few_pages.geometry, 25'000u);
-    EXPECT_EQ(few_pages.textures, 75'000u);
-    const MemoryShares fewer_pages = divideMemory(100'000, makeGraph(0, 1000, 9), makeGraph(0, 1000, 10'000));
-    EXPECT_EQ(fewer_pages.geometry, 9'000u);
+    const MemoryShares few_pages = divideMemory(100'000, makeGraph(0, 1000, 9), makeGraph(0, 1000, 10'000));
+    EXPECT_EQ(few_pages.geometry, 9'000u);
+    EXPECT_EQ(few_pages.textures, 91'000u);
     const MemoryShares few_textures =
-        divideMemory(100'000, makeGraph(0, 1000, 10'000), makeGraph(0, 1000, 40));
-    EXPECT_EQ(few_textures.textures, 25'000u);
+        divideMemory(100'000, makeGraph(0, 1000, 10'000), makeGraph(0, 1000, 9));
+    EXPECT_EQ(few_textures.textures, 9'000u);
+    EXPECT_EQ(few_textures.geometry, 91'000u);
 }
 
 TEST(MemoryShares, neverExceedTheBudget)
 {
     std::mt19937 random(1);
+    const auto draw = [&](uint32_t end) { return static_cast<uint32_t>(random() % end); };
     for (int i = 0; i < 1000; ++i)
     {
-        const auto pages = makeGraph(random() % 100, 1 + random() % 100, random() % 20);
-        const auto textures = makeGraph(random() % 100, 1 + random() % 100, random() % 20);
-        const uint64_t budget = 200 + random() % 3000;
+        const auto pages = makeGraph(draw(100), 1 + draw(100), draw(20));
+        const auto textures = makeGraph(draw(100), 1 + draw(100), draw(20));
+        const uint64_t budget = 200 + draw(3000);
         const MemoryShares shares = divideMemory(budget, pages, textures);
         EXPECT_EQ(shares.geometry + shares.textures, budget);
         EXPECT_GE(shares.geometry, pages.pinnedBytes());

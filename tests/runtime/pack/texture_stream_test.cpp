@@ -345,6 +345,34 @@ TEST(TextureStream, settlesWithWhatIsWanted)
     }
 }
 
+TEST(TextureStream, anImageThatCannotFitBlursNoOther)
+{
+    PackModel model = smallPack();
+    model.materials.clear();
+    model.material_layers.clear();
+    model.images.clear();
+    model.image_data.clear();
+    for (const uint32_t side : {512u, 128u})
+    {
+        ImageRecord image{};
+        image.width = image.height = side;
+        image.format = static_cast<uint32_t>(TexelFormat::rgba8_unorm);
+        image.mip_count = static_cast<uint32_t>(std::bit_width(side));
+        model.image_data.emplace_back(static_cast<size_t>(mipOffset(image, image.mip_count)));
+        model.images.push_back(image);
+    }
+    model.sealImages();
+    const AlignedBytes bytes = model.bytes();
+    const PackView view = readView(bytes);
+    std::mt19937 random(1);
+    Machine machine(view, random, 0.7, 4);
+    for (int i = 0; i < 80; ++i)
+        machine.frame({20, 20}); // a million pixels a UV unit
+    EXPECT_EQ(machine.stream().residency().errorScale(), 1);
+    EXPECT_EQ(machine.stream().residentMip(0), 1u);
+    EXPECT_EQ(machine.stream().residentMip(1), 0u);
+}
+
 TEST(TextureStream, aUseCountsTheAxisWithFewerTexels)
 {
     PackModel model = smallPack();
