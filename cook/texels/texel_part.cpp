@@ -7,6 +7,7 @@
 #include "formats/pack/image_data.h"
 #include "formats/pack/image_error.h"
 #include "formats/pack/pack_check.h"
+#include "formats/pack/part_materials.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -173,13 +174,13 @@ Status cookTexels(const std::string& import_path, const std::string& textures_pa
 {
     HEARTH_ASSIGN_OR_RETURN(const PackView import_part, openPart(import_path));
     HEARTH_ASSIGN_OR_RETURN(const PackView textures, openPart(textures_path));
-    const size_t count = import_part.images().size();
-    if (textures.images().size() != count)
+    const size_t count = textures.images().size();
+    if (!matchesImages(import_part, textures))
         return Error{Issue::meaning_reference, textures_path, "",
-                     "has " + std::to_string(textures.images().size()) +
-                         " images where the import part has " + std::to_string(count)};
-    const std::vector<std::vector<ImageUse>> uses =
-        imageUses(import_part.materials(), import_part.materialLayers(), count);
+                     "has " + std::to_string(count) + " images where the import part has " +
+                         std::to_string(import_part.images().size())};
+    const std::span<const MaterialRecord> materials = findMaterials(import_part, textures);
+    const std::vector<std::vector<ImageUse>> uses = imageUses(materials, import_part.materialLayers(), count);
 
     HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer,
                             ContainerWriter::create(output_path, ContainerKind::part));
@@ -190,7 +191,7 @@ Status cookTexels(const std::string& import_path, const std::string& textures_pa
         HEARTH_ASSIGN_OR_RETURN(const ChunkData data, textures.imageData(i));
         HEARTH_TRY(checkPlain(textures, i, data.bytes()));
         PlainImage image{.record = textures.images()[i], .mips = data.bytes()};
-        const ImageReads reads = findReads(image.record, uses[i], import_part.materials());
+        const ImageReads reads = findReads(image.record, uses[i], materials);
         image.role = reads.role;
         image.channels = reads.channels;
 
@@ -216,6 +217,8 @@ Status cookTexels(const std::string& import_path, const std::string& textures_pa
         }
     }
     HEARTH_TRY(writer.addRecords<ImageRecord>(kChunkImages, records));
+    if (!textures.materials().empty())
+        HEARTH_TRY(writer.addRecords<MaterialRecord>(kChunkMaterials, textures.materials()));
     HEARTH_TRY(writer.finish());
     return addStoredBytes(output_path, results.images);
 }

@@ -75,6 +75,28 @@ std::vector<std::vector<RoughnessUse>> listRoughnessUses(std::span<const Materia
         if (!uses[image].empty() &&
             std::ranges::any_of(all[image], [](const ImageUse& use) { return readsGreen(use.role); }))
             findOrAdd(uses[image], {});
+    for (std::vector<RoughnessUse>& of_image : uses)
+        std::ranges::stable_partition(of_image, [](const RoughnessUse& use)
+                                      { return use.normal_image == kInvalidIndex; });
+    return uses;
+}
+
+std::vector<RoughnessUse> listMissingRoughness(std::span<const MaterialRecord> materials,
+                                               std::span<const ImageRecord> images)
+{
+    std::vector<RoughnessUse> uses;
+    for (uint32_t i = 0; i < materials.size(); ++i)
+    {
+        const MaterialRecord& material = materials[i];
+        if ((material.flags & kMaterialUnlit) != 0 || material.normal_scale == 0 ||
+            material.metallic_roughness_texture.image != kInvalidIndex ||
+            !hasContent(images, material.normal_texture.image, Content::normals))
+            continue;
+        findOrAdd(uses, {.normal_image = material.normal_texture.image,
+                         .normal_scale = material.normal_scale,
+                         .roughness_factor = material.roughness})
+            .materials.push_back(i);
+    }
     return uses;
 }
 

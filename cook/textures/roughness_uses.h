@@ -21,8 +21,8 @@ struct RoughnessUse
     std::vector<uint32_t> materials{};     ///< ascending; empty: other uses of the image
 };
 
-/// Return the uses of each image as roughness, in the order of the materials; none of images that no material
-/// reads the roughness of. A material counts if it is lit and its factor is not 0. Its normal map counts if
+/// Return the uses of each image as roughness, in the order of the materials, but one without a normal map
+/// first; none of images that no material reads the roughness of. A material counts if it is lit and its factor is not 0. Its normal map counts if
 /// it lies on the same place of the surface: with equal UV sets, transforms and wraps.
 ///
 /// images  of the import part; references beyond them are skipped
@@ -30,5 +30,9 @@ std::vector<std::vector<RoughnessUse>>
 listRoughnessUses(std::span<const formats::MaterialRecord> materials,
                   std::span<const formats::MaterialLayersRecord> layers,
                   std::span<const formats::ImageRecord> images);
+
+/// Return the uses that have a normal map, but no roughness image. The factor may be 0.
+std::vector<RoughnessUse> listMissingRoughness(std::span<const formats::MaterialRecord> materials,
+                                               std::span<const formats::ImageRecord> images);
 
 } // namespace hearth::textures

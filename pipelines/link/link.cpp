@@ -5,6 +5,7 @@
 #include "formats/pack/image_data.h"
 #include "formats/pack/instance_meshes.h"
 #include "formats/pack/pack_check.h"
+#include "formats/pack/part_materials.h"
 #include "pipelines/link/asset_bounds.h"
 #include "pipelines/link/image_table.h"
 #include "pipelines/link/merge_meta.h"
@@ -76,7 +77,7 @@ Status checkSameSource(const Source& source)
         (source.clusters_part.meshes().size() > meshes && !has_copies))
         return differ(source.clusters_part, "meshes", source.clusters_part.meshes().size(), meshes);
     const uint64_t images = source.import_part.images().size();
-    if (source.textures_part.images().size() != images)
+    if (!matchesImages(source.import_part, source.textures_part))
         return differ(source.textures_part, "images", source.textures_part.images().size(), images);
     const uint64_t instances = source.import_part.instances().size();
     const uint64_t surroundings = source.clusters_part.surroundings().size();
@@ -132,7 +133,7 @@ bool advanceOffsets(const Source& source, TableOffsets& next)
            advanceOffset(next.cameras, scene.cameras().size()) &&
            advanceOffset(next.lights, scene.lights().size()) &&
            advanceOffset(next.materials, scene.materials().size()) &&
-           advanceOffset(next.images, scene.images().size()) &&
+           advanceOffset(next.images, source.textures_part.images().size()) &&
            advanceOffset(next.skins, scene.skins().size()) &&
            advanceOffset(next.joints, scene.joints().size()) &&
            advanceOffset(next.animations, scene.animations().size()) &&
@@ -267,7 +268,7 @@ Status writeMaterials(ContainerWriter& writer, std::span<const Source> sources, 
 {
     std::vector<MaterialRecord> merged;
     for (const Source& source : sources)
-        for (MaterialRecord record : source.import_part.materials())
+        for (MaterialRecord record : findMaterials(source.import_part, source.textures_part))
         {
             rebase(record, source.offsets);
             for (TextureRef MaterialRecord::*const texture : kMaterialTextureFields)

@@ -106,7 +106,7 @@ TEST(RoughnessUses, materialsThatDoNotReadRoughnessDoNotCount)
     layers.clearcoat_texture = refer(kRoughness);
     const std::vector<RoughnessUse> uses = listUses(materials, {&layers, 1});
     ASSERT_EQ(uses.size(), 2u) << "a clear coat reads green, too";
-    EXPECT_EQ(uses[1].normal_image, kInvalidIndex);
+    EXPECT_EQ(uses[0].normal_image, kInvalidIndex);
 }
 
 class RoughnessPart : public ::testing::Test
@@ -116,6 +116,8 @@ protected:
     {
         texels.push_back(filled(16, 16, {0, 60, 0, 255}));
         texels.push_back(randomBytes(32 * 16 * 4, 1));
+        for (size_t z = 2; z < texels.back().size(); z += 4)
+            texels.back()[z] = std::byte{255};
         texels.push_back(randomBytes(16 * 16 * 4, 2));
         texels.push_back(randomBytes(16 * 16 * 4, 3));
     }
@@ -159,6 +161,78 @@ TEST_F(RoughnessPart, isWidenedByTheNormalMapOfItsMaterial)
     EXPECT_EQ(cook(materials, {.specular_aa = false}), plain);
     materials[0].normal_texture = materials[1].normal_texture = refer(kInvalidIndex);
     EXPECT_EQ(cook(materials), plain);
+}
+
+TEST_F(RoughnessPart, isSplitWhereNormalMapsDiffer)
+{
+    std::vector<MaterialRecord> materials(4, makeMaterial());
+    materials[1].normal_scale = 0.2f;
+    materials[2].normal_scale = 0.2001f;
+    materials[3].normal_texture = refer(kInvalidIndex);
+    materials[3].occlusion_texture = refer(kRoughness);
+    EXPECT_EQ(cook(materials), buildMipChain(images[kRoughness], texels[kRoughness]))
+        << "without a normal map it stays";
+    const auto part = ContainerReader::open(folder.file("out.part"));
+    const auto records = part->records<ImageRecord>(kChunkImages);
+    const auto changed = part->records<MaterialRecord>(kChunkMaterials);
+    ASSERT_EQ(records->size(), 6u);
+    ASSERT_EQ(changed->size(), 4u);
+    const std::array<uint32_t, 4> expected{4, 5, 5, kRoughness};
+    for (uint32_t i = 0; i < 4; ++i)
+    {
+        EXPECT_EQ((*changed)[i].metallic_roughness_texture.image, expected[i]) << i;
+        EXPECT_EQ((*changed)[i].normal_texture.image, materials[i].normal_texture.image);
+        EXPECT_EQ((*changed)[i].roughness, 1);
+    }
+    EXPECT_EQ((*changed)[3].occlusion_texture.image, kRoughness);
+    const auto mips = [&](uint32_t image)
+    {
+        const auto data = part->read(kChunkImageData, image);
+        return std::vector<std::byte>(data->bytes().begin(), data->bytes().end());
+    };
+    EXPECT_EQ(mips(4), expect(kNormals, 1, 1));
+    EXPECT_EQ(mips(5), expect(kNormals, 0.2f, 1));
+    EXPECT_EQ((*records)[4].mip_count, (*records)[0].mip_count);
+    EXPECT_FALSE(ContainerReader::open(folder.file("out.part"))->find(kChunkImageData, 6));
+}
+
+TEST_F(RoughnessPart, isMadeWhereItRises)
+{
+    std::vector<MaterialRecord> materials(3, makeMaterial());
+    for (MaterialRecord& material : materials)
+    {
+        material.metallic_roughness_texture = refer(kInvalidIndex);
+        material.normal_texture.uv_set = 1;
+        material.roughness = 0.3f;
+    }
+    materials[1].roughness = 0;
+    materials[2].normal_scale = 0.001f; // hardly a bump
+    cook(materials);
+    const auto part = ContainerReader::open(folder.file("out.part"));
+    const auto records = part->records<ImageRecord>(kChunkImages);
+    const auto changed = part->records<MaterialRecord>(kChunkMaterials);
+    ASSERT_EQ(records->size(), 6u);
+    ASSERT_EQ(changed->size(), 3u);
+    for (uint32_t i = 0; i < 2; ++i)
+    {
+        const MaterialRecord& material = (*changed)[i];
+        const ImageRecord& made = (*records)[4 + i];
+        EXPECT_EQ(material.metallic_roughness_texture.image, 4 + i);
+        EXPECT_EQ(material.metallic_roughness_texture.uv_set, 1) << "it lies where the normals do";
+        EXPECT_EQ(made.width, 16u);
+        EXPECT_EQ(made.height, 8u);
+        const auto data = part->read(kChunkImageData, 4 + i);
+        const std::vector<Rgba8> finest = decodeMip(made, {data->bytes().begin(), data->bytes().end()}, 0);
+        const std::vector<Rgba8> next = decodeMip(made, {data->bytes().begin(), data->bytes().end()}, 1);
+        EXPECT_NEAR(material.roughness * static_cast<float>(finest[0][1]) / 255, materials[i].roughness, 1e-6)
+            << "near by, the surface is what it was";
+        EXPECT_EQ(finest[0][2], 255) << "the metalness is the factor's";
+        EXPECT_GT(next[0][1], finest[0][1] + 50);
+    }
+    EXPECT_EQ((*changed)[2].metallic_roughness_texture.image, kInvalidIndex);
+
+    cook(materials, {.specular_aa = false});
+    EXPECT_EQ(ContainerReader::open(folder.file("out.part"))->find(kChunkMaterials), nullptr);
 }
 
 TEST_F(RoughnessPart, damagedNormalMapIsAnError)
