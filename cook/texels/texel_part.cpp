@@ -180,7 +180,8 @@ Status cookTexels(const std::string& import_path, const std::string& textures_pa
                      "has " + std::to_string(count) + " images where the import part has " +
                          std::to_string(import_part.images().size())};
     const std::span<const MaterialRecord> materials = findMaterials(import_part, textures);
-    const std::vector<std::vector<ImageUse>> uses = imageUses(materials, import_part.materialLayers(), count);
+    const std::vector<std::vector<ImageUse>> uses =
+        imageUses(materials, findMaterialLayers(import_part, textures), count);
 
     HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer,
                             ContainerWriter::create(output_path, ContainerKind::part));
@@ -219,6 +220,8 @@ Status cookTexels(const std::string& import_path, const std::string& textures_pa
     HEARTH_TRY(writer.addRecords<ImageRecord>(kChunkImages, records));
     if (!textures.materials().empty())
         HEARTH_TRY(writer.addRecords<MaterialRecord>(kChunkMaterials, textures.materials()));
+    if (!textures.materialLayers().empty())
+        HEARTH_TRY(writer.addRecords<MaterialLayersRecord>(kChunkMaterialLayers, textures.materialLayers()));
     HEARTH_TRY(writer.finish());
     return addStoredBytes(output_path, results.images);
 }

@@ -25,12 +25,17 @@ std::vector<Float4> decodeMip(const ImageRecord& image, std::span<const std::byt
     return decoded;
 }
 
-double meanRoughness(std::span<const Float4> texels)
+/// Return the RMS difference of roughness from reference(texel).
+template <typename Reference>
+double measureDifference(std::span<const Float4> texels, const Reference& reference)
 {
     double sum = 0;
-    for (const Float4& texel : texels)
-        sum += double{texel.y};
-    return sum / static_cast<double>(texels.size());
+    for (size_t i = 0; i < texels.size(); ++i)
+    {
+        const double difference = double{texels[i].y} - reference(i);
+        sum += difference * difference;
+    }
+    return std::sqrt(sum / static_cast<double>(texels.size()));
 }
 
 } // namespace
@@ -42,23 +47,18 @@ double findRoughnessDifference(const ImageRecord& image, std::span<const std::by
     for (uint32_t mip = 0; mip < image.mip_count; ++mip)
     {
         const std::vector<Float4> first = decodeMip(image, a, mip), second = decodeMip(image, b, mip);
-        double sum = 0;
-        for (size_t i = 0; i < first.size(); ++i)
-        {
-            const double difference = double{first[i].y} - double{second[i].y};
-            sum += difference * difference;
-        }
-        worst = std::max(worst, std::sqrt(sum / static_cast<double>(first.size())));
+        worst = std::max(worst, measureDifference(first, [&](size_t i) { return double{second[i].y}; }));
     }
     return worst;
 }
 
 double findRoughnessRise(const ImageRecord& image, std::span<const std::byte> texels)
 {
-    const double finest = meanRoughness(decodeMip(image, texels, 0));
+    const double roughness = double{decodeMip(image, texels, 0).front().y};
     double rise = 0;
     for (uint32_t mip = 1; mip < image.mip_count; ++mip)
-        rise = std::max(rise, meanRoughness(decodeMip(image, texels, mip)) - finest);
+        rise = std::max(rise,
+                        measureDifference(decodeMip(image, texels, mip), [&](size_t) { return roughness; }));
     return rise;
 }
 
@@ -69,9 +69,7 @@ RoughnessImage makeRoughnessImage(const ImageRecord& normals, float roughness)
     image.record.width = std::max(normals.width / 2, 1u);
     image.record.height = std::max(normals.height / 2, 1u);
     image.record.format = static_cast<uint32_t>(TexelFormat::rgba8_unorm);
-    const float code = std::ceil(std::clamp(roughness, 0.0f, 1.0f) * 255);
-    if (code > 0)
-        image.factor = std::clamp(roughness, 0.0f, 1.0f) * 255 / code;
+    const float code = std::round(std::clamp(roughness, 0.0f, 1.0f) * 255);
     image.texels.assign(size_t{image.record.width} * image.record.height * 4, std::byte{255});
     for (size_t i = 1; i < image.texels.size(); i += 4)
         image.texels[i] = static_cast<std::byte>(static_cast<uint8_t>(code));

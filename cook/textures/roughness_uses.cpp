@@ -2,6 +2,7 @@
 #include "cook/textures/roughness_uses.h"
 
 #include "cook/textures/texel_codec.h"
+#include "cook/textures/texture_place.h"
 #include "formats/pack/image_uses.h"
 
 #include <algorithm>
@@ -13,12 +14,6 @@ using namespace formats;
 
 namespace
 {
-
-bool liesOnSamePlace(const TextureRef& a, const TextureRef& b)
-{
-    return a.uv_set == b.uv_set && a.wrap_u == b.wrap_u && a.wrap_v == b.wrap_v &&
-           std::ranges::equal(a.uv_transform, b.uv_transform);
-}
 
 bool hasContent(std::span<const ImageRecord> images, uint32_t image, Content content)
 {

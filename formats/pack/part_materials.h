@@ -15,14 +15,20 @@ inline std::span<const MaterialRecord> findMaterials(const PackView& import_part
     return textures_part.materials().empty() ? import_part.materials() : textures_part.materials();
 }
 
-/// Return whether a textures part can be of the same source as an import part: it has an image for each one
-/// of the import part, in their order. Further ones need materials, which use them.
+/// Return the layers of those materials.
+inline std::span<const MaterialLayersRecord> findMaterialLayers(const PackView& import_part,
+                                                                const PackView& textures_part)
+{
+    return textures_part.materials().empty() ? import_part.materialLayers() : textures_part.materialLayers();
+}
+
+/// Return whether a textures part can be of the same source as an import part: it has the same images in the
+/// same order, or materials of its own, one for each of the import part, which know its images.
 inline bool matchesImages(const PackView& import_part, const PackView& textures_part)
 {
-    const size_t images = import_part.images().size(), materials = import_part.materials().size();
     return textures_part.materials().empty()
-               ? textures_part.images().size() == images
-               : textures_part.images().size() >= images && textures_part.materials().size() == materials;
+               ? textures_part.images().size() == import_part.images().size()
+               : textures_part.materials().size() == import_part.materials().size();
 }
 
 } // namespace hearth::formats

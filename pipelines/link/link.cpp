@@ -283,7 +283,7 @@ Status writeMaterialLayers(ContainerWriter& writer, std::span<const Source> sour
 {
     std::vector<MaterialLayersRecord> merged;
     for (const Source& source : sources)
-        for (MaterialLayersRecord record : source.import_part.materialLayers())
+        for (MaterialLayersRecord record : findMaterialLayers(source.import_part, source.textures_part))
         {
             rebase(record, source.offsets);
             for (TextureRef MaterialLayersRecord::*const texture : kLayerTextures)

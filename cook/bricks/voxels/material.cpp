@@ -2,6 +2,7 @@
 #include "cook/bricks/voxels/material.h"
 
 #include "cook/bricks/voxels/coverage.h"
+#include "formats/pack/part_materials.h"
 #include "formats/scene/reflectance.h"
 
 #include <map>
@@ -101,11 +102,12 @@ Result<std::vector<SurfaceMaterial>> readMaterials(const PackView& scene, const 
             image = std::make_shared<const Texture>(textures, reference.image);
         return image;
     };
+    const std::span<const MaterialRecord> materials = findMaterials(scene, textures);
     std::vector<SurfaceMaterial> uses;
-    for (uint32_t i = 0; i < scene.materials().size(); ++i)
+    for (uint32_t i = 0; i < materials.size(); ++i)
     {
-        SurfaceMaterial use{.record = scene.materials()[i], .dielectric = shared::defaultDielectric()};
-        if (const MaterialLayersRecord* layers = findLayers(scene.materialLayers(), i))
+        SurfaceMaterial use{.record = materials[i], .dielectric = shared::defaultDielectric()};
+        if (const MaterialLayersRecord* layers = findLayers(findMaterialLayers(scene, textures), i))
             use.dielectric = shared::specularDielectric(shared::dielectricF0(*layers), layers->specular);
         HEARTH_ASSIGN_OR_RETURN(use.base_color, findTexture(i, use.record.base_color_texture));
         HEARTH_ASSIGN_OR_RETURN(use.metallic_roughness,
