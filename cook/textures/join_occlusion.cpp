@@ -26,11 +26,6 @@ bool suits(const ImageRecord& occlusion, const ImageRecord& image)
            ((occlusion.flags | image.flags) & kImagePlaceholder) == 0;
 }
 
-bool hasOnlyRole(std::span<const ImageUse> uses, std::string_view role)
-{
-    return std::ranges::all_of(uses, [&](const ImageUse& use) { return use.role == role; });
-}
-
 /// Return the only occlusion image of the materials that use a metallic-roughness image; kInvalidIndex: none,
 /// or it cannot join.
 uint32_t findOnlyOcclusion(uint32_t image, std::span<const ImageUse> uses,
@@ -78,6 +73,17 @@ std::vector<uint32_t> listJoinedOcclusion(std::span<const MaterialRecord> materi
         if (occlusion != kInvalidIndex && !becomesUseless(occlusion))
             occlusion = kInvalidIndex;
     return joined;
+}
+
+void shareOcclusion(std::span<const uint32_t> joined, std::span<MaterialRecord> materials)
+{
+    for (MaterialRecord& material : materials)
+    {
+        const uint32_t image = material.metallic_roughness_texture.image;
+        if (image < joined.size() && joined[image] != kInvalidIndex &&
+            joined[image] == material.occlusion_texture.image)
+            material.occlusion_texture.image = image;
+    }
 }
 
 void copyRed(TexelFormat format, std::span<const std::byte> from, std::span<std::byte> to)

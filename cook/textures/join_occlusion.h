@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/records/scene.h"
+#include "formats/records/material_layers.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -21,6 +21,10 @@ namespace hearth::textures
 std::vector<uint32_t> listJoinedOcclusion(std::span<const formats::MaterialRecord> materials,
                                           std::span<const formats::MaterialLayersRecord> layers,
                                           std::span<const formats::ImageRecord> images);
+
+/// Let materials read their occlusion from the image that it joined.
+/// joined  of listJoinedOcclusion()
+void shareOcclusion(std::span<const uint32_t> joined, std::span<formats::MaterialRecord> materials);
 
 /// Copy the red channel. Both have the same number of texels of `format`: RGBA of 8 or 16 bits (asserted).
 void copyRed(formats::TexelFormat format, std::span<const std::byte> from, std::span<std::byte> to);

@@ -4,6 +4,7 @@
 #include "cook/textures/fill_colors.h"
 #include "cook/textures/join_occlusion.h"
 #include "cook/textures/mip_chain.h"
+#include "cook/textures/read_texels.h"
 #include "cook/textures/roughness_images.h"
 #include "cook/textures/texel_codec.h"
 #include "formats/pack/image_data.h"
@@ -18,27 +19,6 @@ using namespace formats;
 
 namespace
 {
-
-/// Read the texels of the finest mip.
-Result<std::vector<std::byte>> readTexels(const ContainerReader& part, const ImageRecord& image,
-                                          uint32_t index)
-{
-    const std::string where = "image " + std::to_string(index);
-    if (image.width == 0 || image.width > kMaxTextureSize || image.height == 0 ||
-        image.height > kMaxTextureSize || texelBytes(image.format) == 0)
-        return Error{Issue::meaning_value, part.name(), where,
-                     std::to_string(image.width) + " x " + std::to_string(image.height) +
-                         " texels of format " + std::to_string(image.format)};
-    if (part.find(kChunkImageData, index) == nullptr)
-        return Error{Issue::chunk_missing, part.name(), chunkName(kChunkImageData, index), ""};
-    HEARTH_ASSIGN_OR_RETURN(const ChunkData data, part.read(kChunkImageData, index));
-    const uint64_t finest = mipOffset(image, 1);
-    if (data.bytes().size() < finest)
-        return Error{Issue::chunk_size, part.name(), chunkName(kChunkImageData, index),
-                     std::to_string(data.bytes().size()) + " bytes, the image has " + std::to_string(finest)};
-    return std::vector<std::byte>(data.bytes().begin(),
-                                  data.bytes().begin() + static_cast<std::ptrdiff_t>(finest));
-}
 
 /// Count the finest mips to leave out, until no side is longer than `max_size`.
 uint32_t countTooLargeMips(const ImageRecord& image, uint32_t max_size)
@@ -98,15 +78,12 @@ std::string readName(std::string_view strings, const StringRef& name)
                : "";
 }
 
-PartWriter::PartWriter(const ContainerReader& part, const ImportTables& tables,
-                       std::span<const uint32_t> joined, const TextureOptions& options, bool has_statistics,
-                       ContainerWriter& writer)
+PartWriter::PartWriter(const ContainerReader& part, const PartTables& tables, const TextureOptions& options,
+                       bool has_statistics, ContainerWriter& writer)
     : part_(part),
-      sources_(tables.images),
+      tables_(tables),
       materials_(tables.materials.begin(), tables.materials.end()),
       layers_(tables.layers.begin(), tables.layers.end()),
-      strings_(tables.strings),
-      joined_(joined),
       options_(options),
       writer_(writer),
       has_statistics_(has_statistics)
@@ -114,26 +91,18 @@ PartWriter::PartWriter(const ContainerReader& part, const ImportTables& tables,
     numberImages();
 }
 
-/// Number the images without those that others take up, whose uses the others get.
+/// Number the images that are kept, for the materials too.
 void PartWriter::numberImages()
 {
-    numbers_.assign(sources_.size(), 0);
-    for (const uint32_t occlusion : joined_)
-        if (occlusion != kInvalidIndex)
-            numbers_[occlusion] = kInvalidIndex;
-    for (uint32_t& number : numbers_)
-        if (number != kInvalidIndex)
-            number = addImage();
-    if (records_.size() == sources_.size())
+    numbers_.assign(tables_.images.size(), kInvalidIndex);
+    for (size_t i = 0; i < numbers_.size(); ++i)
+        if (tables_.is_kept[i])
+            numbers_[i] = addImage();
+    if (records_.size() == numbers_.size())
         return;
     has_changed_materials_ = true;
     for (MaterialRecord& material : materials_)
-    {
-        const uint32_t occlusion = material.occlusion_texture.image;
-        if (occlusion < numbers_.size() && numbers_[occlusion] == kInvalidIndex)
-            material.occlusion_texture.image = material.metallic_roughness_texture.image;
         renumber(material, kMaterialTextureFields, numbers_);
-    }
     for (MaterialLayersRecord& layers : layers_)
         renumber(layers, kLayerTextures, numbers_);
 }
@@ -141,12 +110,12 @@ void PartWriter::numberImages()
 /// Read the finest mip of an image, with the occlusion that it takes up.
 Result<std::vector<std::byte>> PartWriter::readJoined(uint32_t source)
 {
-    HEARTH_ASSIGN_OR_RETURN(std::vector<std::byte> texels, readTexels(part_, sources_[source], source));
-    if (const uint32_t occlusion = joined_[source]; occlusion != kInvalidIndex)
+    HEARTH_ASSIGN_OR_RETURN(std::vector<std::byte> texels, readTexels(part_, tables_.images[source], source));
+    if (const uint32_t occlusion = tables_.joined[source]; occlusion != kInvalidIndex)
     {
         HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> red,
-                                readTexels(part_, sources_[occlusion], occlusion));
-        copyRed(static_cast<TexelFormat>(sources_[source].format), red, texels);
+                                readTexels(part_, tables_.images[occlusion], occlusion));
+        copyRed(static_cast<TexelFormat>(tables_.images[source].format), red, texels);
     }
     return texels;
 }
@@ -157,7 +126,7 @@ Result<std::vector<std::byte>> PartWriter::buildMips(const RoughnessUse& use, co
 {
     if (use.normal_image == kInvalidIndex)
         return buildMipChain(image, std::move(texels), options_.max_bits);
-    const ImageRecord& normals = sources_[use.normal_image];
+    const ImageRecord& normals = tables_.images[use.normal_image];
     HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> normal_texels,
                             readTexels(part_, normals, use.normal_image));
     RoughnessFilter filter({normals, normal_texels, use.normal_scale, use.roughness_factor});
@@ -175,7 +144,7 @@ Status PartWriter::writeChain(uint32_t index, ImageRecord image, std::span<const
     HEARTH_TRY(addImageData(writer_, index, records_[index],
                             chain.subspan(static_cast<size_t>(mipOffset(image, skipped_mips)))));
     if (has_statistics_)
-        statistics_[index] = computeStatistics(strings_, image, chain, skipped_mips, imported);
+        statistics_[index] = computeStatistics(tables_.strings, image, chain, skipped_mips, imported);
     return success();
 }
 
@@ -206,7 +175,7 @@ Status PartWriter::writeImage(uint32_t source, std::span<const RoughnessUse> use
     const uint32_t index = numbers_[source];
     if (index == kInvalidIndex)
         return success();
-    ImageRecord image = sources_[source];
+    ImageRecord image = tables_.images[source];
     HEARTH_ASSIGN_OR_RETURN(std::vector<std::byte> texels, readJoined(source));
     if (fills_alpha && isSrgb(image.format))
         fillHiddenColors(image, texels);
@@ -257,7 +226,7 @@ Status PartWriter::writeVariants(uint32_t index, std::span<const RoughnessUse> u
 
 Status PartWriter::writeMissingRoughness(const RoughnessUse& use)
 {
-    RoughnessImage made = makeRoughnessImage(sources_[use.normal_image], use.roughness_factor);
+    RoughnessImage made = makeRoughnessImage(tables_.images[use.normal_image], use.roughness_factor);
     made.record.mip_count = fullMipCount(made.record.width, made.record.height);
     RoughnessUse whole = use;
     whole.roughness_factor = 1;

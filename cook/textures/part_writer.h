@@ -19,28 +19,28 @@ namespace hearth::textures
 /// Return a name; empty if it is not in the table.
 std::string readName(std::string_view strings, const formats::StringRef& name);
 
-/// Tables of the import part, which must outlive the writer.
-struct ImportTables
+/// Images of an import part and the materials that shall use them. Must outlive the writer.
+struct PartTables
 {
     std::span<const formats::ImageRecord> images{};
+    std::vector<bool> is_kept{};        ///< [image]: written; no material may use one that is not
+    std::span<const uint32_t> joined{}; ///< [image]: as listJoinedOcclusion()
     std::span<const formats::MaterialRecord> materials{};
     std::span<const formats::MaterialLayersRecord> layers{};
     std::string_view strings{};
 };
 
-/// Textures part being written. Images of the import part keep their order; those that another one takes up
-/// are left out, and new ones follow. Materials and their layers refer to the images that are written.
+/// Textures part being written. Images of the import part keep their order, and new ones follow. Materials
+/// and their layers are written if they differ from those of the import part.
 class PartWriter
 {
 public:
-    /// joined          for each image the occlusion image that it takes up: see listJoinedOcclusion()
     /// has_statistics  statistics of each image are computed
-    PartWriter(const formats::ContainerReader& part, const ImportTables& tables,
-               std::span<const uint32_t> joined, const TextureOptions& options, bool has_statistics,
-               formats::ContainerWriter& writer);
+    PartWriter(const formats::ContainerReader& part, const PartTables& tables, const TextureOptions& options,
+               bool has_statistics, formats::ContainerWriter& writer);
 
-    /// Write the mips of an image of the import part, and one for each further use that needs another
-    /// roughness. An image that another one takes up is left out.
+    /// Write the mips of an image of the import part if it is kept, and one for each further use that needs
+    /// another roughness.
     /// uses         of the image as roughness, empty: none
     /// fills_alpha  its colours under an alpha of 0 are filled
     Status writeImage(uint32_t source, std::span<const RoughnessUse> uses, bool fills_alpha);
@@ -69,11 +69,9 @@ private:
     void useImage(const RoughnessUse& use, uint32_t image);
 
     const formats::ContainerReader& part_;
-    std::span<const formats::ImageRecord> sources_;
+    const PartTables& tables_;
     std::vector<formats::MaterialRecord> materials_;
     std::vector<formats::MaterialLayersRecord> layers_;
-    std::string_view strings_;
-    std::span<const uint32_t> joined_;
     const TextureOptions& options_;
     formats::ContainerWriter& writer_;
     std::vector<uint32_t> numbers_{}; ///< [image of the import part]: that of the part, kInvalidIndex: none

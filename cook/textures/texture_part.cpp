@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/textures/texture_part.h"
 
+#include "cook/textures/constant_images.h"
 #include "cook/textures/fill_colors.h"
 #include "cook/textures/join_occlusion.h"
 #include "cook/textures/part_writer.h"
@@ -14,6 +15,18 @@ using namespace formats;
 
 namespace
 {
+
+/// Return which images are stored: all but those that materials used and use no longer.
+std::vector<bool> listKeptImages(std::span<const MaterialRecord> before,
+                                 std::span<const MaterialRecord> after,
+                                 std::span<const MaterialLayersRecord> layers, size_t count)
+{
+    const auto uses_before = imageUses(before, layers, count), uses_after = imageUses(after, layers, count);
+    std::vector<bool> is_kept(count);
+    for (size_t i = 0; i < count; ++i)
+        is_kept[i] = uses_before[i].empty() || !uses_after[i].empty();
+    return is_kept;
+}
 
 /// Add the materials that use each image.
 void addUses(std::span<const MaterialRecord> materials, std::span<const MaterialLayersRecord> layers,
@@ -50,24 +63,32 @@ Status cookTextures(const std::string& import_path, const std::string& output_pa
     const std::string_view names(reinterpret_cast<const char*>(strings.bytes().data()),
                                  strings.bytes().size());
 
-    HEARTH_ASSIGN_OR_RETURN(const Records<MaterialRecord> materials,
+    HEARTH_ASSIGN_OR_RETURN(const Records<MaterialRecord> records,
                             part.records<MaterialRecord>(kChunkMaterials));
     HEARTH_ASSIGN_OR_RETURN(const Records<MaterialLayersRecord> layers,
                             part.records<MaterialLayersRecord>(kChunkMaterialLayers));
-    const ImportTables tables{
-        .images = sources.span(), .materials = materials.span(), .layers = layers.span(), .strings = names};
+    std::vector<MaterialRecord> materials(records.begin(), records.end());
+    HEARTH_TRY(replaceConstantImages(part, sources.span(), layers.span(), materials));
+    const std::vector<uint32_t> joined = listJoinedOcclusion(materials, layers.span(), sources.span());
+    shareOcclusion(joined, materials);
+
     std::vector<std::vector<RoughnessUse>> roughness_uses(sources.size());
     std::vector<RoughnessUse> missing;
     if (options.specular_aa)
     {
-        roughness_uses = listRoughnessUses(tables.materials, tables.layers, tables.images);
-        missing = listMissingRoughness(tables.materials, tables.images);
+        roughness_uses = listRoughnessUses(materials, layers.span(), sources.span());
+        missing = listMissingRoughness(materials, sources.span());
     }
-    const std::vector<bool> has_hidden_colors =
-        listHiddenColors(tables.materials, tables.layers, sources.size());
-    const std::vector<uint32_t> joined = listJoinedOcclusion(tables.materials, tables.layers, tables.images);
+    const std::vector<bool> has_hidden_colors = listHiddenColors(materials, layers.span(), sources.size());
 
-    PartWriter writer(part, tables, joined, options, statistics != nullptr, container);
+    const PartTables tables{.images = sources.span(),
+                            .is_kept =
+                                listKeptImages(records.span(), materials, layers.span(), sources.size()),
+                            .joined = joined,
+                            .materials = materials,
+                            .layers = layers.span(),
+                            .strings = names};
+    PartWriter writer(part, tables, options, statistics != nullptr, container);
     for (uint32_t i = 0; i < sources.size(); ++i)
         HEARTH_TRY(writer.writeImage(i, roughness_uses[i], has_hidden_colors[i]));
     for (const RoughnessUse& use : missing)

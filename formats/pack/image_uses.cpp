@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/pack/image_uses.h"
 
+#include <algorithm>
+
 namespace hearth::formats
 {
 
@@ -48,6 +50,11 @@ std::vector<std::vector<ImageUse>> imageUses(std::span<const MaterialRecord> mat
             addUses<MaterialLayersRecord>(*record, material, kLayerRoles, uses);
     }
     return uses;
+}
+
+bool hasOnlyRole(std::span<const ImageUse> uses, std::string_view role)
+{
+    return std::ranges::all_of(uses, [&](const ImageUse& use) { return use.role == role; });
 }
 
 } // namespace hearth::formats

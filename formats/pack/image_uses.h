@@ -26,4 +26,7 @@ std::vector<std::vector<ImageUse>> imageUses(std::span<const MaterialRecord> mat
                                              std::span<const MaterialLayersRecord> layers,
                                              size_t image_count);
 
+/// Return whether all uses of an image have this role; true without a use.
+bool hasOnlyRole(std::span<const ImageUse> uses, std::string_view role);
+
 } // namespace hearth::formats

@@ -115,6 +115,7 @@ protected:
     RoughnessPart()
     {
         texels.push_back(filled(16, 16, {0, 60, 0, 255}));
+        texels.back()[2] = std::byte{9}; // one metalness everywhere would become a factor
         texels.push_back(randomBytes(32 * 16 * 4, 1));
         for (size_t z = 2; z < texels.back().size(); z += 4)
             texels.back()[z] = std::byte{255};

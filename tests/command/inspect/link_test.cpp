@@ -3,6 +3,7 @@
 #include "cook/pages/mesh_copies.h"
 #include "pipelines/link/link.h"
 
+#include "formats/container/container_writer.h"
 #include "formats/pack/pack_check.h"
 #include "tests/support/sandbox.h"
 #include "tests/support/small_parts.h"
@@ -566,6 +567,36 @@ TEST_F(LinkPack, metaTellsWhatWentIn)
     // paths of the build machine are not stored in the pack
     EXPECT_EQ(meta.dump().find("/where"), std::string::npos);
     EXPECT_EQ(meta.dump().find(sandbox.path()), std::string::npos);
+}
+
+TEST_F(LinkPack, takesMaterialsWithTheirLayersFromATexturesPartThatHasSome)
+{
+    PackModel model = named("a.gltf");
+    addParts(model, "a");
+    model.materials[0].roughness = 0.125f;
+    for (TextureRef MaterialRecord::*const texture : kMaterialTextureFields)
+        if ((model.materials[0].*texture).image != kInvalidIndex)
+            (model.materials[0].*texture).image = 0;
+    ASSERT_FALSE(model.material_layers.empty());
+    for (TextureRef MaterialLayersRecord::*const texture : kLayerTextures)
+        (model.material_layers[0].*texture).image = kInvalidIndex;
+    model.images.resize(1);
+    auto writer = formats::ContainerWriter::create(sandbox / "a.textures.part", ContainerKind::part);
+    ASSERT_TRUE(writer.ok());
+    EXPECT_TRUE(writer->addChunk({.type = kChunkImageData}, model.image_data[0], 1, Codec::none).ok());
+    EXPECT_TRUE(writer->addRecords<ImageRecord>(kChunkImages, model.images).ok());
+    EXPECT_TRUE(writer->addRecords<MaterialRecord>(kChunkMaterials, model.materials).ok());
+    EXPECT_TRUE(writer->addRecords<MaterialLayersRecord>(kChunkMaterialLayers, model.material_layers).ok());
+    EXPECT_TRUE(writer->finish().ok());
+    addParts(named("b.gltf"), "b");
+
+    const PackView pack = linked();
+    EXPECT_TRUE(sameBytes(pack.materials().first(1), model.materials));
+    EXPECT_TRUE(sameBytes(pack.materialLayers().first(1), model.material_layers));
+    EXPECT_EQ(pack.images().size(), 2u) << "the first image of both sources is one";
+    ASSERT_EQ(pack.materials().size(), 2u);
+    EXPECT_EQ(pack.materials()[1].normal_texture.image, 0u);
+    EXPECT_EQ(pack.materials()[1].occlusion_texture.image, 1u);
 }
 
 TEST_F(LinkPack, refusesPartsOfDifferentSources)
