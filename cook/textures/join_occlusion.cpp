@@ -4,6 +4,7 @@
 #include "cook/textures/texel_codec.h"
 #include "cook/textures/texture_place.h"
 #include "formats/pack/image_uses.h"
+#include "formats/pack/pack_view.h"
 
 #include <algorithm>
 #include <cassert>

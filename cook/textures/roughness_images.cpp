@@ -65,7 +65,6 @@ double findRoughnessRise(const ImageRecord& image, std::span<const std::byte> te
 RoughnessImage makeRoughnessImage(const ImageRecord& normals, float roughness)
 {
     RoughnessImage image;
-    image.record.name = normals.name;
     image.record.width = std::max(normals.width / 2, 1u);
     image.record.height = std::max(normals.height / 2, 1u);
     image.record.format = static_cast<uint32_t>(TexelFormat::rgba8_unorm);

@@ -3,6 +3,7 @@
 #include "cook/textures/roughness_uses.h"
 
 #include "cook/textures/mip_chain.h"
+#include "cook/textures/roughness_images.h"
 #include "cook/textures/texture_part.h"
 #include "formats/container/container_writer.h"
 #include "tests/support/temporary_folder.h"
@@ -107,6 +108,24 @@ TEST(RoughnessUses, materialsThatDoNotReadRoughnessDoNotCount)
     const std::vector<RoughnessUse> uses = listUses(materials, {&layers, 1});
     ASSERT_EQ(uses.size(), 2u) << "a clear coat reads green, too";
     EXPECT_EQ(uses[0].normal_image, kInvalidIndex);
+}
+
+TEST(RoughnessImages, areComparedMipByMip)
+{
+    ImageRecord image = makeRecord(4, 4, TexelFormat::rgba8_unorm);
+    image.mip_count = 3;
+    std::vector<std::byte> a = filled(4, 4, {7, 100, 7, 7});
+    for (const int code : {100, 100, 100, 120, 105})
+        for (const int value : {0, code, 0, 0})
+            a.push_back(static_cast<std::byte>(value));
+    EXPECT_NEAR(findRoughnessRise(image, a), 10.0 / 255, 1e-6) << "sqrt(20^2 / 4), more than the last rises";
+    std::vector<std::byte> b = a;
+    EXPECT_EQ(findRoughnessDifference(image, a, b), 0);
+    b[16 * 4 + 1] = std::byte{106};
+    b[0] = std::byte{0};
+    EXPECT_NEAR(findRoughnessDifference(image, a, b), 3.0 / 255, 1e-6) << "sqrt(6^2 / 4)";
+    b[20 * 4 + 1] = std::byte{100};
+    EXPECT_NEAR(findRoughnessDifference(image, a, b), 5.0 / 255, 1e-6);
 }
 
 class RoughnessPart : public ::testing::Test
@@ -220,6 +239,7 @@ TEST_F(RoughnessPart, isMadeWhereItRises)
         const ImageRecord& made = (*records)[4 + i];
         EXPECT_EQ(material.metallic_roughness_texture.image, 4 + i);
         EXPECT_EQ(material.metallic_roughness_texture.uv_set, 1) << "it lies where the normals do";
+        EXPECT_EQ(made.name.length, 0u) << "rules for the normal map do not hold for it";
         EXPECT_EQ(made.width, 16u);
         EXPECT_EQ(made.height, 8u);
         const auto data = part->read(kChunkImageData, 4 + i);
