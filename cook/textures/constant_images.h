@@ -12,8 +12,9 @@ namespace hearth::textures
 {
 
 /// Take images away from the materials that see one value in them. An occlusion of 1 everywhere changes
-/// nothing; one roughness and one metalness are multiplied into the factors. An image with uses of other kinds
-/// stays, since it has to be stored all the same, and so does a placeholder, which shall be seen.
+/// nothing; one roughness and one metalness are multiplied into the factors. An image that is used for
+/// something else too stays, since it has to be stored all the same, and so does a placeholder, which shall
+/// be seen.
 ///
 /// images     of the import part `part`
 /// materials  changed; references beyond the images are skipped

@@ -13,9 +13,9 @@ namespace hearth::textures
 {
 
 /// Return for each image the occlusion image that joins its red channel; kInvalidIndex: none. An occlusion
-/// image joins if that makes it useless: each material that uses it has a metallic-roughness image of the same
-/// size and format on the same place of the surface, whose red channel nobody reads, and which has no other
-/// occlusion in another material.
+/// image joins if that makes it useless: each material that uses it has a metallic-roughness image of the
+/// same size and format on the same place of the surface, whose red channel nobody reads, and which has no
+/// other occlusion in another material.
 ///
 /// images  of the import part; references beyond them are skipped
 std::vector<uint32_t> listJoinedOcclusion(std::span<const formats::MaterialRecord> materials,

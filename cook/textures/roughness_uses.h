@@ -22,8 +22,9 @@ struct RoughnessUse
 };
 
 /// Return the uses of each image as roughness, in the order of the materials, but one without a normal map
-/// first; none of images that no material reads the roughness of. A material counts if it is lit and its factor is not 0. Its normal map counts if
-/// it lies on the same place of the surface: with equal UV sets, transforms and wraps.
+/// first; none of images that no material reads the roughness of. A material counts if it is lit and its
+/// factor is not 0. Its normal map counts if it lies on the same place of the surface: with equal UV sets,
+/// transforms and wraps.
 ///
 /// images  of the import part; references beyond them are skipped
 std::vector<std::vector<RoughnessUse>>

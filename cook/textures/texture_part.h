@@ -25,10 +25,10 @@ struct TextureOptions
 
 /// Read the images of the import part at `import_path` and write them with mips to `output_path`: IMGR, whose
 /// names refer to the import part's string table, and an IMGD for each image. One image is in memory at a
-/// time, with its variants for several normal maps. Images of roughness that several normal maps need, or that
-/// a material without one gets, follow those of the import part; images that factors or another image replace
-/// are left out. Then the part has materials and layers, too (MATL, MLAY), which replace those of the import
-/// part.
+/// time, with its variants for several normal maps. Images of roughness that several normal maps need, or
+/// that a material without one gets, follow those of the import part; images that factors or another image
+/// replace are left out. Then the part has materials and layers, too (MATL, MLAY), which replace those of the
+/// import part.
 ///
 /// options     mips that are left out make the image smaller; the others equal those of the whole chain
 /// statistics  null: none; else filled with one for each image
