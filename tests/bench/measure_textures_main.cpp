@@ -5,6 +5,7 @@
 #include "cook/texels/search.h"
 #include "formats/base/program.h"
 #include "formats/pack/image_error.h"
+#include "formats/pack/part_materials.h"
 #include "tests/bench/aims.h"
 
 #include <algorithm>
@@ -114,13 +115,14 @@ Status measureSource(const std::string& stem, Effort quality, uint32_t max_image
 {
     HEARTH_ASSIGN_OR_RETURN(const PackView import_part, openPart(stem + ".import.part"));
     HEARTH_ASSIGN_OR_RETURN(const PackView textures, openPart(stem + ".textures.part"));
+    const std::span<const MaterialRecord> materials = findMaterials(import_part, textures);
     const auto uses =
-        imageUses(import_part.materials(), import_part.materialLayers(), import_part.images().size());
+        imageUses(materials, findMaterialLayers(import_part, textures), textures.images().size());
     for (uint32_t i = 0; i < std::min<size_t>(textures.images().size(), max_images); ++i)
     {
         HEARTH_ASSIGN_OR_RETURN(const ChunkData data, textures.imageData(i));
         PlainImage image{.record = textures.images()[i], .mips = data.bytes()};
-        const ImageReads reads = findReads(image.record, uses[i], import_part.materials());
+        const ImageReads reads = findReads(image.record, uses[i], materials);
         image.role = reads.role;
         image.channels = reads.channels;
         if (image.role != ImageRole::light && std::min(image.record.width, image.record.height) >= 128 &&
