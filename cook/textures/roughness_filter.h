@@ -24,8 +24,8 @@ struct NormalSource
     float roughness_factor = 1; ///< above 0
 };
 
-/// Compute what the spread of normals adds to the square of alpha, where alpha is the square of
-/// roughness. The GGX lobe that is nearest to the mean of lobes around those normals has that sum.
+/// Compute the variance of normals from the length of their mean: of their slopes about the mean, in each of
+/// two directions.
 ///
 /// mean_length  0 to 1: length of the mean of unit normals
 /// step_error   variance that the steps of stored normals have by themselves, which is no roughness
