@@ -179,6 +179,10 @@ double decibels(double value)
     return std::pow(10.0, -value / 20);
 }
 
+// Images whose errors are seen texel by texel, and their share of the error that others may have: 3 dB.
+constexpr uint32_t kMaxSmallSide = 256;
+constexpr double kStrictShare = 0.7079;
+
 // Target of smooth texels where no seam shows.
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
@@ -316,6 +320,15 @@ Target findTarget(ImageRole role, Effort quality)
     default:
         return {decibels(pick(34, 36.5, 42)), decibels(pick(48, 53, 55))};
     }
+}
+
+Target findTarget(const PlainImage& image, Effort quality)
+{
+    Target target = findTarget(image.role, quality);
+    const bool is_small = std::max(image.record.width, image.record.height) <= kMaxSmallSide;
+    if (image.role == ImageRole::cutout || (isSrgb(image.record.format) && is_small))
+        target.error *= kStrictShare;
+    return target;
 }
 
 Target makeTarget(ImageRole role, Effort quality, double wanted)

@@ -23,6 +23,11 @@ struct Target
 /// over four mips, of which the coarser ones lose more: the finest mip is 1 to 5 dB better.
 Target findTarget(formats::ImageRole role, Effort quality);
 
+/// Return the target of an image: that of its role, 3 dB better for cut-outs and for colours of at most
+/// 256 texels a side. No mip averages their errors away: a test of alpha turns them into whole pixels, and
+/// small images are seen from near.
+Target findTarget(const PlainImage& image, Effort quality);
+
 /// Return a target that a person sets for all texels, in the unit of the role (imageErrorUnit). That of
 /// smooth texels stays as far from it, in decibels, as in findTarget.
 Target makeTarget(formats::ImageRole role, Effort quality, double wanted);

@@ -112,7 +112,7 @@ Result<Request> makeRequest(const PlainImage& image, const TexelOptions& options
     const TextureChoice choice = resolveChoice(
         options.rules, {.quality = options.quality, .families = options.families}, image.role, name);
     Request request{.candidates = listCandidates(image, *choice.families), .effort = *choice.quality};
-    request.target = findTarget(image.role, request.effort);
+    request.target = findTarget(image, request.effort);
     if (choice.target)
     {
         const auto [low, high] = targetRange(image.role);

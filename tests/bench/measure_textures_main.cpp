@@ -75,7 +75,7 @@ void measureImage(const PlainImage& image, const std::string& name, Effort quali
     const std::vector<Candidate> candidates = listCandidates(image, families);
     const double start = processorSeconds();
     const Encoding found =
-        encodeForTarget(image, candidates, findTarget(image.role, quality), quality, false);
+        encodeForTarget(image, candidates, findTarget(image, quality), quality, false);
     const double searched = processorSeconds() - start;
     const double again = processorSeconds();
     (void)encodeImage(image, found.candidate, quality);

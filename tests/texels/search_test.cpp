@@ -185,6 +185,26 @@ TEST(TexelSearch, estimatesAreNearTheWhole)
         }
 }
 
+TEST(TexelSearch, cutoutsAndSmallColorsAreHeldToThreeDecibelsMore)
+{
+    const auto gain = [](uint32_t width, uint32_t height, ImageRole role, TexelFormat format)
+    {
+        PlainImage image;
+        image.record.width = width;
+        image.record.height = height;
+        image.record.format = static_cast<uint32_t>(format);
+        image.role = role;
+        const Target usual = findTarget(role, Effort::normal), found = findTarget(image, Effort::normal);
+        EXPECT_EQ(found.smooth, usual.smooth);
+        return toDecibels(found.error) - toDecibels(usual.error);
+    };
+    EXPECT_NEAR(gain(256, 256, ImageRole::color, TexelFormat::rgba8_srgb), 3, 0.01);
+    EXPECT_NEAR(gain(512, 300, ImageRole::cutout, TexelFormat::rgba8_srgb), 3, 0.01);
+    EXPECT_EQ(gain(16, 257, ImageRole::color, TexelFormat::rgba8_srgb), 0);
+    EXPECT_EQ(gain(64, 64, ImageRole::data, TexelFormat::rgba8_unorm), 0);
+    EXPECT_EQ(gain(64, 64, ImageRole::normal, TexelFormat::rgba8_unorm), 0);
+}
+
 TEST(TexelSearch, whatMissesItsTargetGetsTheBestOrStaysPlain)
 {
     const TestImage noise = makeImage(64, 64, 1, TexelFormat::rgba8_srgb, photographic(1));
