@@ -65,7 +65,7 @@ public:
 private:
     size_t capacity_;
     size_t size_ = 0;
-    std::array<Candidate, 4> list_;
+    std::array<Candidate, 8> list_;
 };
 
 /// Effort in numbers.
@@ -76,7 +76,10 @@ struct Bc7Search
     uint32_t fitted;  ///< partitions that are fitted, of those
     uint32_t refined; ///< candidates that are refined
     uint32_t passes;  ///< of a refinement
+    uint32_t gain;    ///< a refinement is hoped to take this many fourths of the error
     bool three_subsets;
+    bool two_index_sets; ///< also of opaque blocks
+    bool many_starts;    ///< of a refinement
 };
 
 constexpr Bc7Search chooseSearch(Effort effort)
@@ -84,13 +87,19 @@ constexpr Bc7Search chooseSearch(Effort effort)
     switch (effort)
     {
     case Effort::draft:
-        return {1, 1, 1, 1, 0, false};
+        return {1, 1, 1, 1, 0, 1, false, false, false};
     case Effort::normal:
-        return {2, 5, 2, 2, 1, false};
+        return {2, 5, 2, 2, 1, 1, false, true, false};
     default:
-        return {4, 64, 12, 4, 8, true};
+        return {4, 64, 12, 4, 8, 1, true, true, false};
     }
 }
+
+// Blocks of few colours, as of painted palettes, are searched again if their error is large enough to count:
+// what counts there is which colours happen to lie on a line, and those lines are not near the principal axis.
+constexpr Bc7Search kFewColorsSearch{1, 16, 4, 4, 2, 2, true, true, true};
+constexpr size_t kFewColors = 12;
+constexpr uint32_t kFewColorsError = 24; // of a block
 
 /// Exchange alpha with the channel that a rotation names.
 template <typename T>
@@ -199,14 +208,16 @@ Candidate fitPartition(const Bc7Problem& problem, const PartitionedTexels& parts
     return candidate;
 }
 
-/// Try the modes with a number of subsets.
-/// modes  the first of them measures the partitions; mode 0 has only the first 16
-void tryPartitions(const Bc7Problem& problem, uint32_t subsets, std::span<const uint8_t> modes,
-                   const Bc7Search& search, BestCandidates& best)
+/// Try modes with the same number of subsets and of partitions.
+/// modes  the first of them measures the partitions
+void tryPartitions(const Bc7Problem& problem, std::span<const uint8_t> modes, const Bc7Search& search,
+                   BestCandidates& best)
 {
+    const uint32_t subsets = formats::kBc7Modes[modes[0]].subsets;
+    const uint32_t partitions = 1u << formats::kBc7Modes[modes[0]].partition_bits;
     std::array<uint8_t, 64> buffer;
-    const auto ranked = std::span(buffer).first(search.ranked);
-    rankPartitions(problem.values, problem.has_alpha ? 4 : 3, subsets, 64, ranked);
+    const auto ranked = std::span(buffer).first(std::min(search.ranked, partitions));
+    rankPartitions(problem.values, problem.has_alpha ? 4 : 3, subsets, partitions, ranked);
     std::array<PartitionedTexels, 16> kept;
     size_t count = 0;
     for (const uint8_t partition : ranked)
@@ -228,8 +239,7 @@ void tryPartitions(const Bc7Problem& problem, uint32_t subsets, std::span<const 
     }
     for (const PartitionedTexels& parts : std::span(kept).first(count))
         for (const uint8_t mode : modes)
-            if (parts.partition < 1u << formats::kBc7Modes[mode].partition_bits)
-                best.add(fitPartition(problem, parts, mode, search.rounds));
+            best.add(fitPartition(problem, parts, mode, search.rounds));
 }
 
 void tryTwoIndexSets(const Bc7Problem& problem, const Bc7Search& search, BestCandidates& best)
@@ -256,15 +266,53 @@ LineEnds stretch(const LineEnds& ends, int32_t quarters)
     return result;
 }
 
+/// Return ends between which the texels' extremes get the given shares, of 64.
+LineEnds spread(const LineEnds& extremes, int32_t first, int32_t last)
+{
+    LineEnds result;
+    for (size_t c = 0; c < 4; ++c)
+    {
+        const int32_t length = extremes[1][c] - extremes[0][c];
+        result[0][c] = std::clamp(extremes[0][c] - length * first / (last - first), 0, 4080);
+        result[1][c] = std::clamp(extremes[1][c] + length * (64 - last) / (last - first), 0, 4080);
+    }
+    return result;
+}
+
+/// Try ends that lie further apart than the texels, so that these get other indices: each pair of indices of
+/// the extremes, but those that would use less than a third of the line.
+void tryManyStarts(const LineTask& task, const Bc7Search& search, const LineEnds& extremes, Line& line)
+{
+    const uint32_t last = (1u << task.format.index_bits) - 1;
+    Line best;
+    for (uint32_t i = 0; i < last; ++i)
+        for (uint32_t j = i + (last + 2) / 3; j <= last && best.error > 0; ++j)
+        {
+            const LineEnds ends =
+                spread(extremes, static_cast<int32_t>(formats::bptcWeight(i, task.format.index_bits)),
+                       static_cast<int32_t>(formats::bptcWeight(j, task.format.index_bits)));
+            const Line other = fitLine(task.texels, task.weights, task.format, ends, search.rounds);
+            if (other.error < best.error)
+                best = other;
+        }
+    refineLine(task.texels, task.weights, task.format, search.passes, best);
+    if (best.error < line.error)
+        line = best;
+}
+
 /// Refine a line. If its error is small, what counts is which colours happen to lie between the ends: then
 /// ends that lie further apart are tried as well.
 void refine(const LineTask& task, const Bc7Search& search, Line& line)
 {
     constexpr uint32_t kSmallError = 3; // of a texel
     refineLine(task.texels, task.weights, task.format, search.passes, line);
-    if (line.error == 0 || line.error > kSmallError * task.texels.count || search.passes == 0)
+    if (line.error == 0 || search.passes == 0)
         return;
     const LineEnds ends = findEnds(task.texels, task.weights);
+    if (search.many_starts)
+        return tryManyStarts(task, search, ends, line);
+    if (line.error > kSmallError * task.texels.count)
+        return;
     for (const int32_t quarters : {5, 6, 8})
     {
         Line other = fitLine(task.texels, task.weights, task.format, stretch(ends, quarters), search.rounds);
@@ -403,6 +451,51 @@ void pack(const Candidate& candidate, const Indices& indices, std::span<std::byt
     bits.store(block);
 }
 
+/// Search the layouts, and refine the best ones.
+Candidate findBest(const Bc7Problem& problem, const Bc7Search& search)
+{
+    BestCandidates best(search.refined);
+    tryLayout(problem, {6, 0, 0, 0}, search, best);
+    if (best.bestError() > 0)
+    {
+        constexpr std::array<uint8_t, 2> kTwoSubsets = {1, 3};
+        constexpr std::array<uint8_t, 1> kTwoSubsetsWithAlpha = {7}, kFine = {2}, kCoarse = {0};
+        if (problem.has_alpha)
+            tryPartitions(problem, kTwoSubsetsWithAlpha, search, best);
+        else
+            tryPartitions(problem, kTwoSubsets, search, best);
+        if (search.three_subsets && !problem.has_alpha)
+        {
+            tryPartitions(problem, kFine, search, best);
+            tryPartitions(problem, kCoarse, search, best);
+        }
+        if (search.two_index_sets || problem.has_alpha)
+            tryTwoIndexSets(problem, search, best);
+    }
+    uint32_t least = UINT32_MAX;
+    size_t chosen = 0;
+    for (size_t i = 0; i < best.list().size(); ++i)
+    {
+        Candidate& candidate = best.list()[i];
+        if (candidate.error - candidate.error / 4 * search.gain >= least)
+            continue;
+        refine(problem, search, candidate);
+        if (candidate.error < least)
+        {
+            least = candidate.error;
+            chosen = i;
+        }
+    }
+    return best.list()[chosen];
+}
+
+bool hasFewColors(const Block8& texels)
+{
+    Block8 sorted = texels;
+    std::ranges::sort(sorted);
+    return std::ranges::unique(sorted).begin() - sorted.begin() <= static_cast<ptrdiff_t>(kFewColors);
+}
+
 } // namespace
 
 uint32_t encodeBc7(const Block8& texels, const ChannelWeights& weights, Effort effort,
@@ -430,38 +523,10 @@ uint32_t encodeBc7(const Block8& texels, const ChannelWeights& weights, Effort e
         pack(single, indices, block);
         return single.error;
     }
-    const Bc7Search search = chooseSearch(effort);
-    BestCandidates best(search.refined);
-    tryLayout(problem, {6, 0, 0, 0}, search, best);
-    if (best.bestError() > 0)
-    {
-        constexpr std::array<uint8_t, 2> kTwoSubsets = {1, 3}, kThreeSubsets = {2, 0};
-        constexpr std::array<uint8_t, 1> kTwoSubsetsWithAlpha = {7};
-        if (problem.has_alpha)
-            tryPartitions(problem, 2, kTwoSubsetsWithAlpha, search, best);
-        else
-            tryPartitions(problem, 2, kTwoSubsets, search, best);
-        if (search.three_subsets && !problem.has_alpha)
-            tryPartitions(problem, 3, kThreeSubsets, search, best);
-        if (effort != Effort::draft || problem.has_alpha)
-            tryTwoIndexSets(problem, search, best);
-    }
-    // a refinement seldom takes away a quarter of the error
-    uint32_t least = UINT32_MAX;
-    size_t chosen = 0;
-    for (size_t i = 0; i < best.list().size(); ++i)
-    {
-        Candidate& candidate = best.list()[i];
-        if (candidate.error - candidate.error / 4 >= least)
-            continue;
-        refine(problem, search, candidate);
-        if (candidate.error < least)
-        {
-            least = candidate.error;
-            chosen = i;
-        }
-    }
-    Candidate& result = best.list()[chosen];
+    Candidate result = findBest(problem, chooseSearch(effort));
+    if (effort != Effort::draft && result.error > kFewColorsError && hasFewColors(texels))
+        if (const Candidate other = findBest(problem, kFewColorsSearch); other.error < result.error)
+            result = other;
     const Indices indices = chooseIndices(problem, result);
     pack(result, indices, block);
     return result.error;
