@@ -32,6 +32,7 @@ struct ContextKey
     astcenc_profile profile;
     uint32_t flags;
     float effort;
+    float search_limit; ///< decibels of a block from which on libastcenc is content, if its own are less
 
     bool operator==(const ContextKey&) const = default;
 };
@@ -58,10 +59,23 @@ astcenc_profile findProfile(TexelCoding coding)
     }
 }
 
+/// Return the decibels that a block of an image with smooth areas must have. libastcenc is content with fewer
+/// the larger a block is, 40 dB at medium effort and 6x6, and leaves the seams that a finer format would have
+/// to avoid. Draft stays quick.
+float findSearchLimit(Effort effort)
+{
+    constexpr float kLimits[] = {0, 50, 55};
+    return kLimits[static_cast<uint32_t>(effort)];
+}
+
 ContextKey makeKey(const Candidate& candidate, const StoredTexels& texels, Effort effort)
 {
-    ContextKey key{candidate.traits->block_width, candidate.traits->block_height,
-                   findProfile(candidate.traits->coding), 0, findEffort(effort, texels.role)};
+    ContextKey key{candidate.traits->block_width,
+                   candidate.traits->block_height,
+                   findProfile(candidate.traits->coding),
+                   0,
+                   findEffort(effort, texels.role),
+                   candidate.has_smooth_areas ? findSearchLimit(effort) : 0.0f};
     if (texels.role == ImageRole::normal)
         key.flags |= ASTCENC_FLG_MAP_NORMAL;
     else if (candidate.has_two_parts)
@@ -79,7 +93,8 @@ Context makeContext(const ContextKey& key)
     HEARTH_ASSERT(configured == ASTCENC_SUCCESS);
     if ((key.flags & ASTCENC_FLG_MAP_MASK) != 0)
         config.cw_g_weight = config.cw_b_weight = 0; // they repeat red
-    config.a_scale_radius = 0;                       // else a block would depend on its neighbours
+    config.tune_db_limit = std::max(config.tune_db_limit, key.search_limit);
+    config.a_scale_radius = 0; // else a block would depend on its neighbours
     astcenc_context* context = nullptr;
     const astcenc_error allocated = astcenc_context_alloc(&config, 1, &context);
     HEARTH_ASSERT(allocated == ASTCENC_SUCCESS);

@@ -361,14 +361,17 @@ ImageError estimateError(const PlainImage& image, std::span<const SmoothCells> s
             .smooth = combineMips(image.role, image.channels, smooth_sums)};
 }
 
-Encoding encodeForTarget(const PlainImage& image, std::span<const Candidate> candidates, const Target& target,
+Encoding encodeForTarget(const PlainImage& image, std::span<const Candidate> listed, const Target& target,
                          Effort effort, bool strict)
 {
-    HEARTH_ASSERT(!candidates.empty());
+    HEARTH_ASSERT(!listed.empty());
     const std::vector<SmoothCells> smooth = findSmoothCells(image);
+    std::vector<Candidate> candidates(listed.begin(), listed.end());
+    for (Candidate& candidate : candidates)
+        candidate.has_smooth_areas = !smooth.empty();
     if (candidates.size() == 1)
         return encodeMeasured(image, smooth, candidates.back(), target, effort);
-    Estimates estimates(image, smooth, candidates.first(candidates.size() - 1), target, effort);
+    Estimates estimates(image, smooth, std::span(candidates).first(candidates.size() - 1), target, effort);
     Encoding encoding = encodeBest(image, candidates, target, effort, strict, smooth, estimates);
     encoding.estimates = estimates.list();
     return encoding;
@@ -377,7 +380,10 @@ Encoding encodeForTarget(const PlainImage& image, std::span<const Candidate> can
 Encoding encodeCandidate(const PlainImage& image, const Candidate& candidate, const Target& target,
                          Effort effort)
 {
-    return encodeMeasured(image, findSmoothCells(image), candidate, target, effort);
+    const std::vector<SmoothCells> smooth = findSmoothCells(image);
+    Candidate told = candidate;
+    told.has_smooth_areas = !smooth.empty();
+    return encodeMeasured(image, smooth, told, target, effort);
 }
 
 } // namespace hearth::texels

@@ -151,6 +151,28 @@ TEST(TexelSearch, theErrorIsThatOfARecountAndHoldsTheTarget)
     }
 }
 
+TEST(TexelSearch, smoothAreasAreEncodedFinerThanLibastcencAloneWould)
+{
+    const auto sky = [](uint32_t c, double x, double y)
+    {
+        const double wave = 0.5 + 0.1 * std::sin(3 * x + c) * std::cos(2 * y - 0.5 * c);
+        return c == 3 ? 1 : wave + (std::abs(std::fmod(5 * x + 3 * y, 1.0)) < 0.4 ? 0.2 : 0);
+    };
+    const TestImage image = makeImage(256, 256, 1, TexelFormat::rgba8_srgb, sky);
+    const PlainImage plain = image.plain(ImageRole::color, kRgb);
+    const std::vector<SmoothCells> smooth = findSmoothCells(plain);
+    ASSERT_FALSE(smooth.empty());
+    const std::vector<Candidate> candidates = listCandidates(plain, kAstc);
+    const auto wide =
+        std::ranges::find(candidates, "astc-8x8-srgb", [](const Candidate& one) { return one.traits->name; });
+    ASSERT_NE(wide, candidates.end());
+    const Target target = findTarget(plain.role, Effort::normal);
+    const ImageError alone = measureError(plain, smooth, *wide, encodeImage(plain, *wide, Effort::normal));
+    const ImageError error = encodeCandidate(plain, *wide, target, Effort::normal).error;
+    EXPECT_LT(error.smooth, alone.smooth * 0.9);
+    EXPECT_LE(error.error, alone.error);
+}
+
 TEST(TexelSearch, noCheaperFootprintHoldsTheTarget)
 {
     const Case c = makeCases()[0];
