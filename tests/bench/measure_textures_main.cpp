@@ -44,8 +44,8 @@ struct Times
     double search = 0;
 };
 
-/// Search for the largest footprint in which each image holds its targets, as far as Hearth's format does: what
-/// one footprint for all would have to be.
+/// Finds the largest footprint in which each image holds its targets, as far as Hearth's format does: one
+/// footprint for all would have to be that small.
 struct CommonFootprint
 {
     std::vector<TexelFormat> formats{}; ///< linear ones, from 6x6 to finer ones

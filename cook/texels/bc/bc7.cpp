@@ -95,8 +95,8 @@ constexpr Bc7Search chooseSearch(Effort effort)
     }
 }
 
-// Blocks of few colours, as of painted palettes, are searched again if their error is large enough to count:
-// what counts there is which colours happen to lie on a line, and those lines are not near the principal axis.
+// Blocks of few colours, as of painted palettes, are searched again if their error is large enough to count.
+// Their best line is the one that passes through most of the colours, and it is seldom the principal axis.
 constexpr Bc7Search kFewColorsSearch{1, 16, 4, 4, 2, 2, true, true, true};
 constexpr size_t kFewColors = 12;
 constexpr uint32_t kFewColorsError = 24; // of a block
