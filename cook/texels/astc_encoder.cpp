@@ -70,12 +70,10 @@ float findSearchLimit(Effort effort)
 
 ContextKey makeKey(const Candidate& candidate, const StoredTexels& texels, Effort effort)
 {
-    ContextKey key{candidate.traits->block_width,
-                   candidate.traits->block_height,
-                   findProfile(candidate.traits->coding),
-                   0,
-                   findEffort(effort, texels.role),
-                   candidate.has_smooth_areas ? findSearchLimit(effort) : 0.0f};
+    ContextKey key{
+        candidate.traits->block_width,         candidate.traits->block_height,
+        findProfile(candidate.traits->coding), 0,
+        findEffort(effort, texels.role),       candidate.has_smooth_areas ? findSearchLimit(effort) : 0.0f};
     if (texels.role == ImageRole::normal)
         key.flags |= ASTCENC_FLG_MAP_NORMAL;
     else if (candidate.has_two_parts)

@@ -21,6 +21,11 @@ Json errorJson(ImageRole role, double error)
             {std::string(imageErrorUnit(role)), std::isfinite(converted) ? Json(converted) : Json(nullptr)}};
 }
 
+const char* reasonName(FormatReason reason)
+{
+    return reason == FormatReason::rule ? "rule" : reason == FormatReason::budget ? "budget" : "target";
+}
+
 /// Return the candidates that the search looked at, by bytes on the GPU.
 Json estimatesJson(const ImageResult& image, ImageRole role)
 {
@@ -72,7 +77,7 @@ Json imageJson(const TexelResults& results, size_t index)
         {"target", errorJson(role, image.target.error)},
         {"target_smooth", std::isfinite(image.target.smooth) ? errorJson(role, image.target.smooth) : Json()},
         {"holds_target", image.holds_target},
-        {"reason", image.reason == FormatReason::rule ? "rule" : "target"},
+        {"reason", reasonName(image.reason)},
         {"estimates", estimatesJson(image, role)}};
     if (image.picture)
         json["picture"] = pictureJson(results, image);

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/texels/texel_part.h"
 
-#include "cook/texels/role.h"
+#include "cook/texels/texel_source.h"
 #include "formats/container/container_reader.h"
 #include "formats/container/container_writer.h"
 #include "formats/pack/image_data.h"
-#include "formats/pack/image_error.h"
-#include "formats/pack/pack_check.h"
-#include "formats/pack/part_materials.h"
 
 #include <algorithm>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <functional>
 #include <numeric>
 
@@ -22,30 +17,6 @@ using namespace formats;
 
 namespace
 {
-
-Result<PackView> openPart(const std::string& path)
-{
-    HEARTH_ASSIGN_OR_RETURN(ContainerReader reader, ContainerReader::open(path, Check::structure));
-    return PackView::read(std::move(reader));
-}
-
-/// Check what the encoders take for granted of an image of the textures part.
-Status checkPlain(const PackView& textures, uint32_t index, std::span<const std::byte> mips)
-{
-    const ImageRecord& image = textures.images()[index];
-    const std::string where = "image " + std::to_string(index);
-    if (image.width == 0 || image.width > kMaxImageSize || image.height == 0 ||
-        image.height > kMaxImageSize || image.mip_count == 0 || image.mip_count > 32 ||
-        texelBytes(image.format) < 4)
-        return Error{Issue::meaning_value, textures.name(), where,
-                     std::to_string(image.width) + " x " + std::to_string(image.height) +
-                         " texels of format " + std::to_string(image.format)};
-    if (mips.size() != mipOffset(image, image.mip_count))
-        return Error{Issue::chunk_size, textures.name(), chunkName(kChunkImageData, index),
-                     std::to_string(mips.size()) + " bytes, its mips have " +
-                         std::to_string(mipOffset(image, image.mip_count))};
-    return success();
-}
 
 /// Return the record of an encoded image.
 ImageRecord describe(const PlainImage& image, const Encoding& encoding)
@@ -62,83 +33,9 @@ ImageRecord describe(const PlainImage& image, const Encoding& encoding)
     return record;
 }
 
-/// Format or error that an image shall have.
-struct Request
-{
-    std::vector<Candidate> candidates{}; ///< as listCandidates; one if a rule names a format
-    Target target{};
-    Effort effort = Effort::normal;
-    FormatReason reason = FormatReason::target;
-};
-
-/// Ranges of targets in the units of roles: what lies beyond is meant for another role.
-struct TargetRange
-{
-    double low;
-    double high;
-};
-
-TargetRange targetRange(ImageRole role)
-{
-    if (role == ImageRole::normal)
-        return {0.1, 45};
-    return role == ImageRole::light ? TargetRange{0.001, 4} : TargetRange{10, 100};
-}
-
-/// Keep the candidate that a rule names. errors: `error` with the formats that suit the image
-Status keepNamed(const PlainImage& image, const TextureChoice& choice, Error error,
-                 std::vector<Candidate>& candidates)
-{
-    const auto found = std::ranges::find_if(candidates, [&](const Candidate& candidate)
-                                            { return matchesFormat(choice.format, *candidate.traits); });
-    if (found != candidates.end())
-    {
-        candidates = {*found};
-        return success();
-    }
-    std::vector<std::string_view> names;
-    for (const Candidate& candidate : candidates)
-        names.push_back(candidate.traits->name);
-    error.detail = fmt::format("\"{}\" does not suit role {} with families {}; suitable are {}",
-                               choice.format, imageRoleName(static_cast<uint32_t>(image.role)),
-                               familiesText(*choice.families), fmt::join(names, ", "));
-    return error;
-}
-
-/// Resolve the rules for an image. errors: `error` with a detail, where a rule does not suit the image
-Result<Request> makeRequest(const PlainImage& image, const TexelOptions& options, const std::string& name,
-                            Error error)
-{
-    const TextureChoice choice = resolveChoice(
-        options.rules, {.quality = options.quality, .families = options.families}, image.role, name);
-    Request request{.candidates = listCandidates(image, *choice.families), .effort = *choice.quality};
-    request.target = findTarget(image, request.effort);
-    if (choice.target)
-    {
-        const auto [low, high] = targetRange(image.role);
-        if (*choice.target < low || *choice.target > high)
-        {
-            error.detail = fmt::format("target {} is not between {} and {}: it is in {} for role {}",
-                                       *choice.target, low, high,
-                                       image.role == ImageRole::normal  ? "degrees"
-                                       : image.role == ImageRole::light ? "stops"
-                                                                        : "decibels",
-                                       imageRoleName(static_cast<uint32_t>(image.role)));
-            return error;
-        }
-        request.target = makeTarget(image.role, request.effort, *choice.target);
-    }
-    if (!choice.format.empty())
-    {
-        HEARTH_TRY(keepNamed(image, choice, std::move(error), request.candidates));
-        request.reason = FormatReason::rule;
-    }
-    return request;
-}
-
 Encoding encodeRequest(const PlainImage& image, const Request& request, bool strict)
 {
-    if (request.reason == FormatReason::rule)
+    if (request.reason != FormatReason::target)
         return encodeCandidate(image, request.candidates.front(), request.target, request.effort);
     return encodeForTarget(image, request.candidates, request.target, request.effort, strict);
 }
@@ -172,39 +69,21 @@ Status addStoredBytes(const std::string& path, std::span<ImageResult> results)
 Status cookTexels(const std::string& import_path, const std::string& textures_path,
                   const std::string& output_path, const TexelOptions& options, TexelResults& results)
 {
-    HEARTH_ASSIGN_OR_RETURN(const PackView import_part, openPart(import_path));
-    HEARTH_ASSIGN_OR_RETURN(const PackView textures, openPart(textures_path));
-    const size_t count = textures.images().size();
-    if (!matchesImages(import_part, textures))
-        return Error{Issue::meaning_reference, textures_path, "",
-                     "has " + std::to_string(count) + " images where the import part has " +
-                         std::to_string(import_part.images().size())};
-    const std::span<const MaterialRecord> materials = findMaterials(import_part, textures);
-    const std::vector<std::vector<ImageUse>> uses =
-        imageUses(materials, findMaterialLayers(import_part, textures), count);
-
+    HEARTH_ASSIGN_OR_RETURN(const TexelSource source, TexelSource::open(import_path, textures_path));
     HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer,
                             ContainerWriter::create(output_path, ContainerKind::part));
     std::vector<ImageRecord> records;
-    const std::vector<bool> pictured = selectPictured(textures.images(), options);
-    for (uint32_t i = 0; i < count; ++i)
+    const std::vector<bool> pictured = selectPictured(source.images(), options);
+    for (uint32_t i = 0; i < source.images().size(); ++i)
     {
-        HEARTH_ASSIGN_OR_RETURN(const ChunkData data, textures.imageData(i));
-        HEARTH_TRY(checkPlain(textures, i, data.bytes()));
-        PlainImage image{.record = textures.images()[i], .mips = data.bytes()};
-        const ImageReads reads = findReads(image.record, uses[i], materials);
-        image.role = reads.role;
-        image.channels = reads.channels;
-
-        const std::string name(import_part.text(image.record.name));
-        HEARTH_ASSIGN_OR_RETURN(
-            const Request request,
-            makeRequest(image, options, name,
-                        {Issue::texture_rule, import_path, fmt::format("image {} \"{}\"", i, name), ""}));
+        HEARTH_ASSIGN_OR_RETURN(const LoadedImage loaded, source.load(i));
+        const PlainImage& image = loaded.image;
+        HEARTH_ASSIGN_OR_RETURN(const Request request,
+                                makeRequest(image, options, i, loaded.name, loaded.place));
         const Encoding encoding = encodeRequest(image, request, options.strict);
         records.push_back(describe(image, encoding));
         HEARTH_TRY(addImageData(writer, i, records.back(), encoding.texels));
-        results.images.push_back({.name = name,
+        results.images.push_back({.name = loaded.name,
                                   .record = records.back(),
                                   .target = request.target,
                                   .holds_target = encoding.share <= 1,
@@ -218,10 +97,10 @@ Status cookTexels(const std::string& import_path, const std::string& textures_pa
         }
     }
     HEARTH_TRY(writer.addRecords<ImageRecord>(kChunkImages, records));
-    if (!textures.materials().empty())
-        HEARTH_TRY(writer.addRecords<MaterialRecord>(kChunkMaterials, textures.materials()));
-    if (!textures.materialLayers().empty())
-        HEARTH_TRY(writer.addRecords<MaterialLayersRecord>(kChunkMaterialLayers, textures.materialLayers()));
+    if (!source.changedMaterials().empty())
+        HEARTH_TRY(writer.addRecords<MaterialRecord>(kChunkMaterials, source.changedMaterials()));
+    if (!source.changedLayers().empty())
+        HEARTH_TRY(writer.addRecords<MaterialLayersRecord>(kChunkMaterialLayers, source.changedLayers()));
     HEARTH_TRY(writer.finish());
     return addStoredBytes(output_path, results.images);
 }

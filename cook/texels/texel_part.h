@@ -3,8 +3,7 @@
 #pragma once
 
 #include "cook/texels/picture.h"
-#include "cook/texels/rules/texture_rules.h"
-#include "cook/texels/search.h"
+#include "cook/texels/texel_request.h"
 #include "formats/base/result.h"
 
 #include <string>
@@ -15,22 +14,6 @@ namespace hearth::texels
 
 /// Number of images of a source that have pictures in a report: as many as a page shows without weight.
 inline constexpr size_t kMaxPictures = 64;
-
-struct TexelOptions
-{
-    Families families{};
-    Effort quality = Effort::normal; ///< target of error and effort of the encoders
-    bool strict = false;             ///< an image that misses its target is not compressed
-    TextureRules rules{};            ///< exceptions by role and by name
-    bool draws_pictures = false;     ///< pictures of the largest images, at most kMaxPictures
-};
-
-/// Reason why an image has its format.
-enum class FormatReason : uint8_t
-{
-    target, ///< it has the fewest bytes of those that hold the target, or is the nearest to it
-    rule,   ///< a rule names it
-};
 
 /// Result of encoding an image, for people and scripts.
 struct ImageResult

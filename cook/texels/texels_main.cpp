@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
 #include "cook/command_line/thread_limit.h"
+#include "cook/texels/texel_options.h"
 #include "cook/texels/texel_part.h"
 #include "cook/tools/batch.h"
 #include "cook/tools/png.h"
@@ -9,7 +10,9 @@
 #include "formats/base/program.h"
 #include "formats/pack/image_error.h"
 
+#include <charconv>
 #include <cstdio>
+#include <map>
 
 namespace
 {
@@ -18,32 +21,34 @@ using namespace hearth;
 
 struct Arguments
 {
-    std::string import_part;
-    std::string textures_part;
+    texels::TexelArguments texels;
     std::string output;
-    size_t jobs = 0;
-    std::vector<std::string> families;
-    std::string quality = "normal";
-    bool strict = false;
-    std::vector<std::string> rules; ///< lines of TOML
     std::string statistics;
     std::string image;
+    std::vector<std::string> formats; ///< "INDEX=FORMAT"
 };
+
+/// Parse the words of --format. errors: usage
+Result<std::map<uint32_t, std::string>> parseFormats(const Arguments& arguments)
+{
+    std::map<uint32_t, std::string> formats;
+    for (const std::string& word : arguments.formats)
+    {
+        uint32_t index = 0;
+        const auto [end, fault] = std::from_chars(word.data(), word.data() + word.size(), index);
+        if (fault != std::errc() || end == word.data() + word.size() || *end != '=')
+            return Error{Issue::usage, arguments.texels.import_part, "--format",
+                         "\"" + word + "\" is not INDEX=FORMAT"};
+        formats[index] = end + 1;
+    }
+    return formats;
+}
 
 Result<texels::TexelOptions> parseOptions(const Arguments& arguments)
 {
-    texels::TexelOptions options{.strict = arguments.strict, .draws_pictures = !arguments.image.empty()};
-    if (arguments.families.empty())
-        options.families = {.astc = true, .etc2 = true};
-    for (const std::string& name : arguments.families)
-        if (!texels::addFamily(name, options.families))
-            return Error{Issue::usage, arguments.import_part, "--family",
-                         "\"" + name + "\" is none of astc, etc2, bc"};
-    options.quality = *texels::parseEffort(arguments.quality);
-    std::string rules;
-    for (const std::string& rule : arguments.rules)
-        rules += rule + "\n";
-    HEARTH_ASSIGN_OR_RETURN(options.rules, texels::parseTextureRules(rules, "--set"));
+    HEARTH_ASSIGN_OR_RETURN(texels::TexelOptions options, texels::parseTexelOptions(arguments.texels));
+    options.draws_pictures = !arguments.image.empty();
+    HEARTH_ASSIGN_OR_RETURN(options.formats, parseFormats(arguments));
     return options;
 }
 
@@ -58,7 +63,7 @@ void warnOfMisses(const Arguments& arguments, std::span<const texels::ImageResul
         const std::string detail = formats::imageErrorText(role, double{image.record.error}) + " as " +
                                    std::string(formats::texelFormatName(image.record.format)) +
                                    ", the target is " + formats::imageErrorText(role, image.target.error);
-        const Error warning{Issue::texture_target, arguments.import_part,
+        const Error warning{Issue::texture_target, arguments.texels.import_part,
                             "image " + std::to_string(i) + " \"" + image.name + "\"", detail};
         std::fprintf(stderr, "%s\n", formatMessage(warning).c_str());
     }
@@ -79,21 +84,20 @@ Status cook(const Arguments& arguments)
 {
     HEARTH_ASSIGN_OR_RETURN(const texels::TexelOptions options, parseOptions(arguments));
     texels::TexelResults results;
-    HEARTH_TRY(texels::cookTexels(arguments.import_part, arguments.textures_part, arguments.output, options,
-                                  results));
+    HEARTH_TRY(texels::cookTexels(arguments.texels.import_part, arguments.texels.textures_part,
+                                  arguments.output, options, results));
     warnOfMisses(arguments, results.images);
     if (!arguments.image.empty())
         HEARTH_TRY(writeSheet(arguments.image, results.pictures));
     if (arguments.statistics.empty())
         return success();
-    const std::string source =
-        arguments.import_part.substr(arguments.import_part.rfind('/') + 1); // npos + 1 is 0
-    return writeText(arguments.statistics, texels::statisticsJson(source, results));
+    return writeText(arguments.statistics,
+                     texels::statisticsJson(texels::inputName(arguments.texels), results));
 }
 
 int run(const Arguments& arguments)
 {
-    const cli::ThreadLimit limit(arguments.jobs);
+    const cli::ThreadLimit limit(arguments.texels.jobs);
     const Status written = cook(arguments);
     return written.ok() ? 0 : reportFailure(written.error());
 }
@@ -102,22 +106,11 @@ int program(int argc, char** argv)
 {
     cli::CommandLine app("Compresses the mips of a textures part for a target and writes the texels part.");
     Arguments arguments;
-    app.addOption("import", arguments.import_part, "import part: its materials tell what images are for")
-        .required();
-    app.addOption("textures", arguments.textures_part, "textures part").required();
+    texels::addTexelOptions(app, arguments.texels);
     app.addOption("-o,--output", arguments.output, "texels part to write").required();
-    app.addOption("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
-    app.addOption(
-        "--family", arguments.families,
-        "formats that the target reads: astc, astc-hdr, etc2 or bc; may be repeated. Default: astc and "
-        "etc2");
-    app.addOption("--quality", arguments.quality,
-                  "target of error, and effort: draft 34 dB, normal 36.5, high 42 for colours")
-        .choices({texels::effortNames().begin(), texels::effortNames().end()}, "QUALITY");
-    app.addFlag("--strict", arguments.strict, "do not compress an image that misses its target");
-    app.addOption("--set", arguments.rules,
-                  "KEY=VALUE: rules by role or name, as textures.role=[{role=\"normal\",target=2}] or "
-                  "textures.image=[{name=\"ui_*\",format=\"plain\"}]")
+    app.addOption("--format", arguments.formats,
+                  "INDEX=FORMAT: format of an image that no rule names one for, whatever its error; may be "
+                  "repeated")
         .oneValueEach();
     app.addOption("--stats", arguments.statistics,
                   "write statistics of each image as JSON, with its measured error; - is standard output");

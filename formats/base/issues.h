@@ -93,6 +93,8 @@ enum class IssueClass : uint8_t
       "set textures.strict to keep it plain, or a lower textures.quality")                                   \
     X(texture_rule, 1310, config, "a rule for textures does not suit a texture",                             \
       "name a format of the message, or set families or target in the rule that matches")                    \
+    X(texture_budget, 1311, warning, "textures are above their budget in their smallest formats",            \
+      "raise textures.budget, or set textures.max_size")                                                     \
     X(dropped, 1400, warning, "a part of the source is not kept", "")                                        \
     X(degraded, 1401, warning, "a part of the source is drawn in a simpler way", "")                         \
     X(repaired, 1402, warning, "a part of the source was repaired", "")                                      \

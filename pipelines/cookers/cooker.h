@@ -29,6 +29,14 @@ struct Cost
     double seconds_per_mib = 0; ///< seconds per MiB of source, on two cores
 };
 
+/// Content of a list with a line for each source, which changes the actions of these sources.
+enum class Lists : uint8_t
+{
+    nothing,    ///< the cooker writes no list
+    neighbours, ///< numbers of sources: their parts become inputs
+    words,      ///< values of an option: they become words of the command
+};
+
 struct Cooker
 {
     std::string_view name; ///< "clusters": the program is hearth-clusters
@@ -42,11 +50,14 @@ struct Cooker
     std::vector<std::string_view> reads{};
     /// true: it reads the statistics of these cookers instead of their parts
     bool reads_statistics = false;
-    /// True if a cooker of a source reads also the parts of the source's neighbours, of the cookers that it
-    /// reads of its own source. null: never
-    bool (*readsNeighbours)(const settings::Values& values) = nullptr;
-    /// true: its part is the list of all sources' neighbours; it runs only where a cooker reads neighbours
-    bool lists_neighbours = false;
+    /// Cooker of the pack whose list says what more the cooker gets for each source; empty: none
+    std::string_view listed_by{};
+    /// True if a cooker needs that list; null: wherever the cooker that writes it is enabled
+    bool (*needsList)(const settings::Values& values) = nullptr;
+    /// content of its part as a list; it runs only where a cooker needs the list
+    Lists lists = Lists::nothing;
+    /// cooker of the pack without which it does not run, since no other reads its part; empty: none
+    std::string_view needed_by{};
     /// true: it reads the source's files, its authored LODs, and files that these name
     bool reads_files = false;
     /// true: hearth-link reads its part; false: the part is for other cookers, or only for reports

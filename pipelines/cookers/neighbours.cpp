@@ -12,7 +12,7 @@ Cooker describeNeighbours()
             .switched_by = "visibility.mode",
             .reads = {"import"},
             .reads_statistics = true,
-            .lists_neighbours = true,
+            .lists = Lists::neighbours,
             .is_linked = false,
             .extension = ".txt",
             .cost = {16 * kMiB, 0, 0}};

@@ -10,6 +10,8 @@ namespace hearth::cookers
 Cooker describeImport();
 Cooker describeClusters();
 Cooker describeTextures();
+Cooker describeEstimates();
+Cooker describeBudget();
 Cooker describeTexels();
 Cooker describeSkinning();
 Cooker describeNeighbours();
@@ -27,9 +29,10 @@ using settings::Values;
 
 std::vector<Cooker> makeCookers()
 {
-    std::vector<Cooker> cookers{
-        describeImport(),     describeClusters(),   describeTextures(), describeTexels(), describeSkinning(),
-        describeNeighbours(), describeVisibility(), describeSpecular(), describeBricks(), describeLink()};
+    std::vector<Cooker> cookers{describeImport(),    describeClusters(),   describeTextures(),
+                                describeEstimates(), describeBudget(),     describeTexels(),
+                                describeSkinning(),  describeNeighbours(), describeVisibility(),
+                                describeSpecular(),  describeBricks(),     describeLink()};
     for (Cooker& cooker : cookers)
         for (Setting& setting : cooker.settings)
             setting.scope = cooker.scope;

@@ -1,6 +1,7 @@
 // hearth-texels: compression of textures for the target.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/texels/rules/texture_rules.h"
+#include "pipelines/cookers/texel_arguments.h"
 #include "pipelines/cookers/words.h"
 #include "pipelines/settings/make_setting.h"
 
@@ -57,23 +58,23 @@ Status checkRules(const std::string& key, const std::string& text)
 }
 
 /// Make a setting with rules for textures.
-/// first  member that says which textures a rule is for
-Setting rulesSetting(std::string key, std::string_view what, Setting first)
+/// members  those that say which textures a rule is for
+Setting rulesSetting(std::string key, std::string_view what, std::vector<Setting> members)
 {
-    Setting setting = tablesSetting(
-        std::move(key), what, "",
-        {asRequired(std::move(first)),
-         numberSetting(
-             "target",
-             "error of these textures: decibels, at least, of colours and data; degrees, at most, of "
-             "normals; stops of light",
-             "as quality says", 0, 100),
-         qualitySetting("quality", "textures.quality"),
-         familiesSetting("families", "textures.families"),
-         {"format", Kind::text,
-          "format of these textures, whatever its error: as hearth inspect prints it, without its last part "
-          "if need be (astc-6x6, bc7), or plain",
-          ""}});
+    const std::vector<Setting> choice{
+        numberSetting(
+            "target",
+            "error of these textures: decibels, at least, of colours and data; degrees, at most, of "
+            "normals; stops of light",
+            "as quality says", 0, 100),
+        qualitySetting("quality", "textures.quality"),
+        familiesSetting("families", "textures.families"),
+        {"format", Kind::text,
+         "format of these textures, whatever its error: as hearth inspect prints it, without its last part "
+         "if need be (astc-6x6, bc7), or plain",
+         ""}};
+    members.insert(members.end(), choice.begin(), choice.end());
+    Setting setting = tablesSetting(std::move(key), what, "", std::move(members));
     setting.check = checkRules;
     return setting;
 }
@@ -87,24 +88,19 @@ std::vector<Setting> makeTexelSettings()
         flagSetting("textures.strict", "a texture that misses its error in all formats is not compressed",
                     ""),
         rulesSetting("textures.role", "rules for textures of a role: the first of that role holds",
-                     choiceSetting("role", "role of the textures", "",
-                                   {"color", "cutout", "emissive", "data", "normal", "light"})),
+                     {asRequired(choiceSetting("role", "role of the textures", "",
+                                               {"color", "cutout", "emissive", "data", "normal", "light"}))}),
         rulesSetting(
             "textures.image",
-            "rules for textures by name, over those by role: the first whose name matches holds",
-            {"name", Kind::text,
-             "textures whose name, or whose file's name, this pattern matches; * and ? are wildcards", ""})};
-}
-
-Result<Arguments> makeTexelArguments(const Values& values)
-{
-    Arguments arguments;
-    addOption(values, "textures.families", "--family", arguments);
-    addOption(values, "textures.quality", "--quality", arguments);
-    addFlag(values, "textures.strict", "--strict", arguments);
-    for (const char* key : {"textures.role", "textures.image"})
-        addAssignment(values, key, arguments);
-    return arguments;
+            "rules for textures by name or by the path of their source, over those by role: the first that "
+            "matches holds",
+            {{"name", Kind::text,
+              "textures whose name, or whose file's name, this pattern matches; * and ? are wildcards",
+              "all"},
+             {"path", Kind::text,
+              "textures of sources whose path from the folder of hearth.toml this pattern matches, as "
+              "assets/ui/**",
+              "all"}})};
 }
 
 } // namespace
@@ -114,6 +110,7 @@ Cooker describeTexels()
     return {.name = "texels",
             .switched_by = "textures.families",
             .reads = {"import", "textures"},
+            .listed_by = "budget",
             .replaces = "textures",
             .has_statistics = true,
             .image_option = "--image",

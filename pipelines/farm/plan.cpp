@@ -19,10 +19,10 @@ std::string cookerPath(const std::string& programs, const std::string& cooker)
 }
 
 /// True if the action belongs to one of the sources, or to all sources together where all are listed, or
-/// lists the neighbours of any.
+/// lists what sources get.
 bool isSelected(const graph::Graph& graph, const graph::Action& action, const std::vector<size_t>& sources)
 {
-    return action.lists_neighbours || std::binary_search(sources.begin(), sources.end(), action.source) ||
+    return action.is_lister || std::binary_search(sources.begin(), sources.end(), action.source) ||
            (action.source == graph.source_count && sources.size() == graph.source_count);
 }
 

@@ -3,7 +3,7 @@
 
 #include "cook/json/json.h"
 #include "cook/tools/sha256.h"
-#include "pipelines/graph/neighbour_inputs.h"
+#include "pipelines/graph/lists.h"
 #include "pipelines/graph/skip_source.h"
 
 #include <algorithm>
@@ -96,7 +96,7 @@ bool isComplete(const ShardRecord& record, const Plan& plan, size_t shard, Step 
                       { return recorded.action == action && hasAllOutputs(recorded, plan); });
 }
 
-/// Remove sources whose inputs are missing from an action that lists neighbours.
+/// Remove sources whose inputs are missing from an action that writes a list.
 /// hashes  of the outputs that are there
 void skipMissingInputs(graph::Graph& graph, size_t lister, const graph::OutputHashes& hashes)
 {
@@ -249,22 +249,22 @@ std::vector<size_t> missingResults(graph::Graph graph, cache::Cache& cache, grap
     graph::OutputHashes hashes(graph.actions.size());
     for (size_t i = 0; i < graph.actions.size(); ++i)
     {
-        const bool lists_neighbours = graph.actions[i].lists_neighbours;
-        if (graph.actions[i].source == graph.source_count && !lists_neighbours)
+        const bool is_lister = graph.actions[i].is_lister;
+        if (graph.actions[i].source == graph.source_count && !is_lister)
             continue;
-        if (lists_neighbours)
+        if (is_lister)
             skipMissingInputs(graph, i, hashes);
         const graph::Action& action = graph.actions[i];
-        const size_t lister = action.neighbours_from;
+        const size_t lister = action.lister;
         const bool waits = lister != graph::kNoAction && hashes[lister].empty();
         const auto part_hashes = waits ? std::nullopt : graph::findPartHashes(action, hashes);
         const auto record = part_hashes ? actions.makeRecord(action, *part_hashes) : std::nullopt;
         const auto result = record ? actions.find(action, *record).result : std::nullopt;
         const bool is_there = result && areIntact(*result, cache, scratch) &&
-                              (!lists_neighbours || graph::setNeighbourInputs(graph, i, result->neighbours));
+                              (!is_lister || graph::applyList(graph, i, result->list));
         if (is_there)
             hashes[i] = graph::listHashes(*result);
-        else if (!lists_neighbours)
+        else if (!is_lister)
             missing.push_back(i);
     }
     return missing;

@@ -63,7 +63,7 @@ std::vector<size_t> listActions(const graph::Graph& graph, std::span<const size_
     {
         const graph::Action& action = graph.actions[i];
         if (std::binary_search(sources.begin(), sources.end(), action.source) &&
-            (step == Step::complete || action.neighbours_from == graph::kNoAction))
+            (step == Step::complete || action.lister == graph::kNoAction))
             actions.push_back(i);
     }
     return actions;
@@ -71,8 +71,8 @@ std::vector<size_t> listActions(const graph::Graph& graph, std::span<const size_
 
 bool hasTwoSteps(const graph::Graph& graph)
 {
-    return std::ranges::any_of(graph.actions, [](const graph::Action& action)
-                               { return action.neighbours_from != graph::kNoAction; });
+    return std::ranges::any_of(graph.actions,
+                               [](const graph::Action& action) { return action.lister != graph::kNoAction; });
 }
 
 } // namespace hearth::farm

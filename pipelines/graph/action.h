@@ -51,10 +51,10 @@ struct Action
     std::vector<Input> inputs;
     /// File names, unique among the actions of one source. At least one; the first is the part.
     std::vector<std::string> outputs;
-    bool lists_neighbours = false; ///< its first output lists the neighbours of all sources
-    /// Index of the action that lists which sources' parts this one reads, too: dynamic inputs, which
-    /// setNeighbourInputs adds once the list is known. kNoAction: it has none.
-    size_t neighbours_from = kNoAction;
+    bool is_lister = false; ///< its first output is a list that applyList reads
+    /// Index of the action whose list names further inputs or words of this one, which applyList adds once the
+    /// list is known; kNoAction: none
+    size_t lister = kNoAction;
     bool finds_files = false; ///< reads files that are not declared inputs, and lists them with --depfile
     bool depends_on_processor = false; ///< output bytes are equal only on processors of one class
     Estimate estimate;

@@ -19,7 +19,7 @@ namespace
 // would not be worth the time to read them.
 constexpr size_t kMaxFindings = 16;
 constexpr const char* kFindings = "findings";
-constexpr const char* kNeighbours = "neighbours";
+constexpr const char* kList = "list";
 // Placeholder for the subject at the start of a cached warning: another cook may name it by another path.
 constexpr char kSubject = '\1';
 
@@ -59,8 +59,8 @@ cache::Fields resultFields(const Action& action, const CachedResult& result)
     }
     for (const std::string& warning : result.warnings)
         fields.emplace_back("warning", maskSubject(warning, action.subject));
-    if (action.lists_neighbours)
-        fields.emplace_back(kNeighbours, result.neighbours);
+    if (action.is_lister)
+        fields.emplace_back(kList, result.list);
     fields.emplace_back("milliseconds", fmt::format("{:.0f}", result.seconds * 1e3));
     fields.emplace_back("cpu_milliseconds", fmt::format("{:.0f}", result.cpu_seconds * 1e3));
     fields.emplace_back("peak_rss_bytes", std::to_string(result.peak_rss_bytes));
@@ -95,7 +95,7 @@ std::optional<CachedResult> parseResult(const Action& action, const cache::Field
             result.outputs.back().bytes = parseNumber(value);
         else if (name == "warning")
             result.warnings.push_back(value.starts_with(kSubject) ? action.subject + value.substr(1) : value);
-    result.neighbours = cache::fieldValue(fields, kNeighbours);
+    result.list = cache::fieldValue(fields, kList);
     result.seconds = static_cast<double>(parseNumber(cache::fieldValue(fields, "milliseconds"))) * 1e-3;
     result.cpu_seconds =
         static_cast<double>(parseNumber(cache::fieldValue(fields, "cpu_milliseconds"))) * 1e-3;

@@ -29,9 +29,9 @@ struct CachedResult
     double seconds = 0;
     double cpu_seconds = 0;
     uint64_t peak_rss_bytes = 0;
-    /// Text of the first output of an action that lists neighbours. It is stored with the result, so that a
+    /// Text of the first output of an action that writes a list. It is stored with the result, so that a
     /// cook that runs nothing need not fetch it.
-    std::string neighbours{};
+    std::string list{};
 };
 
 /// SHA-256 of the outputs of each action; empty for an action whose outputs are not known yet.

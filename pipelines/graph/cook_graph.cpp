@@ -30,8 +30,6 @@ struct Draft
     Graph graph{};
     std::vector<ActionIndices> actions_of_source; ///< [sources]
     ActionIndices actions_of_pack{};
-    /// Action that lists the neighbours of all sources; kNoAction: none has neighbours.
-    size_t neighbours = kNoAction;
 };
 
 Action makeAction(const Cooker& cooker, size_t source, const std::string& subject)
@@ -101,19 +99,25 @@ Status addSourceFiles(const CookSettings& settings, size_t source, Action& actio
     return success();
 }
 
+/// Add the words that settings make. errors: those of Cooker::makeArguments
+Status addArguments(const Cooker& cooker, const Values& values, Action& action)
+{
+    if (cooker.makeArguments == nullptr)
+        return success();
+    HEARTH_ASSIGN_OR_RETURN(const cookers::Arguments arguments, cooker.makeArguments(values));
+    for (const std::string& word : arguments.words)
+        addWord(action, word);
+    action.depends_on_processor = arguments.depends_on_processor;
+    return success();
+}
+
 /// Add the outputs of the cooker and its arguments, then add the action to the graph.
 /// returns  its index. errors: those of Cooker::makeArguments
 Result<size_t> finishAction(const Cooker& cooker, const Values& values, Action action, Graph& graph)
 {
     const std::string name(cooker.name);
     addOutput(action, "-o", name + std::string(cooker.extension));
-    if (cooker.makeArguments != nullptr)
-    {
-        HEARTH_ASSIGN_OR_RETURN(const cookers::Arguments arguments, cooker.makeArguments(values));
-        for (const std::string& word : arguments.words)
-            addWord(action, word);
-        action.depends_on_processor = arguments.depends_on_processor;
-    }
+    HEARTH_TRY(addArguments(cooker, values, action));
     // small and always written, so that any cook can be reported on without running anything again
     if (cooker.has_statistics)
         addOutput(action, "--stats", name + ".json");
@@ -123,26 +127,43 @@ Result<size_t> finishAction(const Cooker& cooker, const Values& values, Action a
     return graph.actions.size() - 1;
 }
 
-/// True if a cooker reads also the parts of a source's neighbours: where the pack has other sources.
-bool readsNeighbours(const Cooker& cooker, const CookSettings& settings, const Values& values)
+/// True if a cooker of the pack runs; an empty name runs always.
+bool runsInPack(std::string_view cooker, const Draft& draft)
 {
-    return settings.sources.size() > 1 && cooker.readsNeighbours != nullptr && cooker.readsNeighbours(values);
+    return cooker.empty() || cookers::isEnabled(*cookers::findCooker(cooker), draft.settings.values_of_pack,
+                                                draft.values_of_source);
+}
+
+/// True if a cooker runs for a source.
+bool runsForSource(const Cooker& cooker, const Values& values, const Draft& draft)
+{
+    return cooker.scope == Scope::source && cookers::isEnabled(cooker, {}, {&values, 1}) &&
+           runsInPack(cooker.needed_by, draft);
+}
+
+/// True if a cooker gets more for a source than its own parts: a source alone has no neighbours.
+bool isListed(const Cooker& cooker, const Values& values, const Draft& draft)
+{
+    if (cooker.listed_by.empty() || !runsInPack(cooker.listed_by, draft))
+        return false;
+    const bool has_neighbours = draft.settings.sources.size() > 1;
+    return (has_neighbours || cookers::findCooker(cooker.listed_by)->lists != cookers::Lists::neighbours) &&
+           (cooker.needsList == nullptr || cooker.needsList(values));
 }
 
 /// Add the actions of one source, in two steps: first those that read its own files and parts only, then
-/// those that also read the parts of its neighbours. errors: those of addSourceFiles and finishAction
-Status addSource(size_t source, bool reads_neighbours, Draft& draft)
+/// those that another action lists more for. errors: those of addSourceFiles and finishAction
+Status addSource(size_t source, bool is_listed, Draft& draft)
 {
     const Values& values = draft.values_of_source[source];
     ActionIndices& actions = draft.actions_of_source[source];
     for (const Cooker& cooker : cookers::allCookers())
     {
-        if (cooker.scope != Scope::source || !cookers::isEnabled(cooker, {}, {&values, 1}) ||
-            readsNeighbours(cooker, draft.settings, values) != reads_neighbours)
+        if (!runsForSource(cooker, values, draft) || isListed(cooker, values, draft) != is_listed)
             continue;
         Action action = makeAction(cooker, source, draft.settings.sources[source]);
-        if (reads_neighbours)
-            action.neighbours_from = draft.neighbours;
+        if (is_listed)
+            action.lister = draft.actions_of_pack.at(cooker.listed_by);
         if (cooker.reads_files)
             HEARTH_TRY(addSourceFiles(draft.settings, source, action));
         for (const std::string_view read : cooker.reads)
@@ -157,47 +178,50 @@ Status addSource(size_t source, bool reads_neighbours, Draft& draft)
 Status addCookerOfPack(const Cooker& cooker, Draft& draft)
 {
     Action action = makeAction(cooker, draft.settings.sources.size(), draft.settings.output);
-    action.lists_neighbours = cooker.lists_neighbours;
+    action.is_lister = cooker.lists != cookers::Lists::nothing;
     for (const ActionIndices& actions : draft.actions_of_source)
         for (const std::string_view read : cooker.reads)
+        {
+            if (!actions.contains(read))
+                continue; // it does not run for this source
             addInput(action, cooker.reads_statistics ? sourceStatisticsInput(draft.graph, actions.at(read))
                                                      : sourcePartInput(draft.graph, actions.at(read)));
+        }
     HEARTH_ASSIGN_OR_RETURN(
         draft.actions_of_pack[cooker.name],
         finishAction(cooker, draft.settings.values_of_pack, std::move(action), draft.graph));
     return success();
 }
 
-/// Add the action that lists neighbours, if a cooker of a source reads them. errors: those of finishAction
-Status addNeighbours(Draft& draft)
+/// Add the actions that list what cookers of sources need, if any does. errors: those of finishAction
+Status addListers(Draft& draft)
 {
-    const auto isRead = [&](const Cooker& cooker)
+    for (const Cooker& lister : cookers::allCookers())
     {
-        return std::ranges::any_of(draft.values_of_source,
-                                   [&](const Values& values) {
-                                       return cookers::isEnabled(cooker, {}, {&values, 1}) &&
-                                              readsNeighbours(cooker, draft.settings, values);
-                                   });
-    };
-    if (std::ranges::none_of(cookers::allCookers(), isRead))
-        return success();
-    for (const Cooker& cooker : cookers::allCookers())
-        if (cooker.lists_neighbours)
+        const auto isNeeded = [&](const Values& values)
         {
-            HEARTH_TRY(addCookerOfPack(cooker, draft));
-            draft.neighbours = draft.actions_of_pack.at(cooker.name);
-        }
+            return std::ranges::any_of(cookers::allCookers(),
+                                       [&](const Cooker& cooker)
+                                       {
+                                           return cooker.listed_by == lister.name &&
+                                                  runsForSource(cooker, values, draft) &&
+                                                  isListed(cooker, values, draft);
+                                       });
+        };
+        if (lister.lists != cookers::Lists::nothing && std::ranges::any_of(draft.values_of_source, isNeeded))
+            HEARTH_TRY(addCookerOfPack(lister, draft));
+    }
     return success();
 }
 
-/// Add the actions that run once for all sources, except the link and the one that lists neighbours.
+/// Add the actions that run once for all sources, except the link and those that write lists.
 /// errors: those of finishAction
 Status addCookersOfPack(Draft& draft)
 {
     for (const Cooker& cooker : cookers::allCookers())
     {
         const bool is_link = &cooker == &cookers::allCookers().back();
-        if (cooker.scope == Scope::pack && !is_link && !cooker.lists_neighbours &&
+        if (cooker.scope == Scope::pack && !is_link && cooker.lists == cookers::Lists::nothing &&
             cookers::isEnabled(cooker, draft.settings.values_of_pack, draft.values_of_source))
             HEARTH_TRY(addCookerOfPack(cooker, draft));
     }
@@ -214,7 +238,8 @@ size_t linkedAction(const Cooker& cooker, const ActionIndices& actions)
     return actions.at(cooker.name);
 }
 
-void addLink(Draft& draft)
+/// Add the action that makes the pack. errors: those of addArguments
+Status addLink(Draft& draft)
 {
     const Cooker& cooker = cookers::allCookers().back();
     Action link = makeAction(cooker, draft.settings.sources.size(), draft.settings.output);
@@ -231,7 +256,9 @@ void addLink(Draft& draft)
         addInput(link, partInput(draft.graph, found->second));
     }
     addOutput(link, "-o", "pack.hearth");
+    HEARTH_TRY(addArguments(cooker, draft.settings.values_of_pack, link));
     draft.graph.actions.push_back(std::move(link));
+    return success();
 }
 
 } // namespace
@@ -246,11 +273,11 @@ Result<Graph> makeCookGraph(const CookSettings& settings)
     draft.graph.source_count = sources;
     for (size_t source = 0; source < sources; ++source)
         HEARTH_TRY(addSource(source, false, draft));
-    HEARTH_TRY(addNeighbours(draft));
+    HEARTH_TRY(addListers(draft));
     for (size_t source = 0; source < sources; ++source)
         HEARTH_TRY(addSource(source, true, draft));
     HEARTH_TRY(addCookersOfPack(draft));
-    addLink(draft);
+    HEARTH_TRY(addLink(draft));
     addEstimates(draft.graph);
     return std::move(draft.graph);
 }

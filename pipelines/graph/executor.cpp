@@ -4,7 +4,7 @@
 #include "cook/tools/dependency_list.h"
 #include "cook/tools/sha256.h"
 #include "formats/base/regular_file.h"
-#include "pipelines/graph/neighbour_inputs.h"
+#include "pipelines/graph/lists.h"
 #include "pipelines/graph/skip_source.h"
 
 #include <algorithm>
@@ -76,17 +76,17 @@ void Executor::need(size_t index)
     for (const Input& input : action.inputs)
         if (input.action != kNoAction)
             need(input.action);
-    if (action.neighbours_from != kNoAction)
-        need(action.neighbours_from);
+    if (action.lister != kNoAction)
+        need(action.lister);
 }
 
-/// Set the inputs that an action has listed. False where its list is malformed.
-bool Executor::setNeighbours(size_t lister)
+/// Add the inputs and words that an action has listed. False where its list is malformed.
+bool Executor::addListed(size_t lister)
 {
-    if (!setNeighbourInputs(graph_, lister, outcomes_[lister].result.neighbours))
+    if (!applyList(graph_, lister, outcomes_[lister].result.list))
         return false;
     for (size_t i = 0; i < graph_.actions.size(); ++i)
-        if (is_needed_[i] && graph_.actions[i].neighbours_from == lister)
+        if (is_needed_[i] && graph_.actions[i].lister == lister)
             for (const Input& input : graph_.actions[i].inputs)
                 need(input.action);
     return true;
@@ -295,13 +295,15 @@ std::optional<Failure> Executor::start(size_t index)
 /// True if it is known which sources fail before an action of the pack reads them.
 bool Executor::areSourcesSettled(size_t reader) const
 {
+    const bool is_list = graph_.actions[reader].is_lister;
     for (size_t i = 0; i < states_.size(); ++i)
     {
         const Action& action = graph_.actions[i];
+        // what waits for one list may be waited for by another
+        const bool waits_for_list = is_list && action.lister != kNoAction;
         const bool is_settled = states_[i] == State::done || states_[i] == State::failed;
-        if (action.source == graph_.source_count
-                ? states_[i] == State::running
-                : is_needed_[i] && action.neighbours_from != reader && !is_settled)
+        if (action.source == graph_.source_count ? states_[i] == State::running
+                                                 : is_needed_[i] && !waits_for_list && !is_settled)
             return false;
     }
     return true;
@@ -321,18 +323,18 @@ bool Executor::skipFailedSources()
     for (size_t i = 0; i < states_.size(); ++i)
     {
         const Action& action = graph_.actions[i];
-        // failed because a neighbour has failed, not by itself
+        // failed because the list, or a neighbour, has failed, not by itself
         const bool was_left_out = outcomes_[i].ending == Outcome::skipped;
-        const bool reads_neighbours = action.neighbours_from != kNoAction && !has_failed[action.source];
-        if (states_[i] == State::failed ? !(reads_neighbours && was_left_out)
-                                        : !reads_neighbours && !readsSources(graph_, action))
+        const bool is_listed = action.lister != kNoAction && !has_failed[action.source];
+        if (states_[i] == State::failed ? !(is_listed && was_left_out)
+                                        : !is_listed && !readsSources(graph_, action))
             continue;
         states_[i] = State::waiting;
         outcomes_[i].paths.clear();
     }
     for (size_t i = 0; i < graph_.actions.size(); ++i)
-        if (graph_.actions[i].lists_neighbours)
-            removeNeighbourInputs(graph_, i);
+        if (graph_.actions[i].is_lister)
+            removeListed(graph_, i);
     for (size_t source = 0; source < graph_.source_count; ++source)
         if (has_failed[source] && !is_skipped_[source])
             skipSource(graph_, source, failures_);
@@ -366,7 +368,7 @@ bool Executor::advance(size_t index)
         if (skipFailedSources())
             return true;
     }
-    const size_t lister = action.neighbours_from;
+    const size_t lister = action.lister;
     if (std::any_of(action.inputs.begin(), action.inputs.end(), isIn(State::failed)) ||
         (lister != kNoAction && states_[lister] == State::failed))
     {
@@ -401,7 +403,7 @@ bool Executor::advance(size_t index)
     outcome.ending = Outcome::cached;
     outcome.is_cached = true;
     outcome.result = std::move(*resolved.result);
-    if (action.lists_neighbours && !setNeighbours(index))
+    if (action.is_lister && !addListed(index))
     {
         states_[index] = State::must_run;
         outcome.causes = {kLost};
@@ -417,9 +419,8 @@ bool Executor::areInputsDone(size_t index) const
 {
     const Action& action = graph_.actions[index];
     const auto isDone = [&](size_t before) { return before == kNoAction || states_[before] == State::done; };
-    return isDone(action.neighbours_from) &&
-           std::all_of(action.inputs.begin(), action.inputs.end(),
-                       [&](const Input& input) { return isDone(input.action); });
+    return isDone(action.lister) && std::all_of(action.inputs.begin(), action.inputs.end(),
+                                                [&](const Input& input) { return isDone(input.action); });
 }
 
 std::optional<Failure> Executor::startReady()
@@ -476,12 +477,12 @@ std::optional<Failure> Executor::checkOutputs(size_t index)
     return std::nullopt;
 }
 
-/// Read the list of neighbours that an action has made; else report a defect of its cooker.
-std::optional<Failure> Executor::takeNeighbours(size_t index)
+/// Read the list that an action has made; else report a defect of its cooker.
+std::optional<Failure> Executor::takeList(size_t index)
 {
     ActionOutcome& outcome = outcomes_[index];
-    outcome.result.neighbours = readIfThere(outcome.paths.front()).value_or("");
-    if (setNeighbours(index))
+    outcome.result.list = readIfThere(outcome.paths.front()).value_or("");
+    if (addListed(index))
         return std::nullopt;
     const Action& action = graph_.actions[index];
     return makeFailure({Issue::child_failed, action.subject, "",
@@ -538,8 +539,8 @@ void Executor::handleEnd(const ActionEnd& action_end)
     std::optional<Failure> failure = makeFailure(action, end, lines);
     if (!failure)
         failure = checkOutputs(index);
-    if (!failure && action.lists_neighbours)
-        failure = takeNeighbours(index);
+    if (!failure && action.is_lister)
+        failure = takeList(index);
     if (failure)
         fail(index, *failure);
     else

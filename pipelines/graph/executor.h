@@ -123,7 +123,7 @@ private:
     bool advance(size_t action);
     bool areInputsDone(size_t action) const;
     void need(size_t action);
-    bool setNeighbours(size_t lister);
+    bool addListed(size_t lister);
     bool areSourcesSettled(size_t reader) const;
     bool skipFailedSources();
     uint64_t partBytes(size_t action) const;
@@ -136,7 +136,7 @@ private:
     bool ensureInputs(size_t action);
     void handleEnd(const ActionEnd& end);
     std::optional<Failure> checkOutputs(size_t action);
-    std::optional<Failure> takeNeighbours(size_t action);
+    std::optional<Failure> takeList(size_t action);
     void cacheResult(size_t action);
     bool finishPack(const std::optional<std::string>& existing_hash);
     bool finishParts();

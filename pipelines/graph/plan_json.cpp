@@ -39,10 +39,10 @@ Json actionJson(const Action& action)
         json["words"].push_back(wordJson(word));
     for (const Input& input : action.inputs)
         json["inputs"].push_back(inputJson(input));
-    if (action.lists_neighbours)
-        json["lists_neighbours"] = true;
-    if (action.neighbours_from != kNoAction)
-        json["neighbours_from"] = action.neighbours_from;
+    if (action.is_lister)
+        json["is_lister"] = true;
+    if (action.lister != kNoAction)
+        json["lister"] = action.lister;
     if (action.finds_files)
         json["finds_files"] = true;
     if (action.depends_on_processor)
@@ -72,8 +72,8 @@ Action parseAction(const Json& json)
     for (const Json& input : json.at("inputs"))
         action.inputs.push_back({input.at("role").get<std::string>(), input.value("action", kNoAction),
                                  input.value("path", ""), input.value("output", size_t{0})});
-    action.lists_neighbours = json.value("lists_neighbours", false);
-    action.neighbours_from = json.value("neighbours_from", kNoAction);
+    action.is_lister = json.value("is_lister", false);
+    action.lister = json.value("lister", kNoAction);
     action.finds_files = json.value("finds_files", false);
     action.depends_on_processor = json.value("depends_on_processor", false);
     json.at("estimate").at("memory_bytes").get_to(action.estimate.memory_bytes);
@@ -95,7 +95,7 @@ bool isConsistent(const Graph& graph)
             if (input.action != kNoAction &&
                 (input.action >= i || input.output >= graph.actions[input.action].outputs.size()))
                 return false;
-        if (action.neighbours_from != kNoAction && action.neighbours_from >= i)
+        if (action.lister != kNoAction && action.lister >= i)
             return false;
         if (action.outputs.empty() || action.source > graph.source_count)
             return false;

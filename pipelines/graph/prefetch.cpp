@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/graph/prefetch.h"
 
-#include "pipelines/graph/neighbour_inputs.h"
+#include "pipelines/graph/lists.h"
 
 namespace hearth::graph
 {
@@ -15,10 +15,10 @@ struct PendingLookup
     Record record;
 };
 
-/// True if the action's neighbours are not known yet.
-bool waitsForNeighbours(const Action& action, const OutputHashes& hashes)
+/// True if what is listed for the action is not known yet.
+bool waitsForList(const Action& action, const OutputHashes& hashes)
 {
-    return action.neighbours_from != kNoAction && hashes[action.neighbours_from].empty();
+    return action.lister != kNoAction && hashes[action.lister].empty();
 }
 
 /// Return the actions that can be looked up now, and remove them from `remaining`.
@@ -31,7 +31,7 @@ std::vector<PendingLookup> nextWave(const Graph& graph, ActionCache& actions, co
     {
         const Action& action = graph.actions[index];
         const auto part_hashes = findPartHashes(action, hashes);
-        if (!part_hashes || waitsForNeighbours(action, hashes))
+        if (!part_hashes || waitsForList(action, hashes))
             later.push_back(index);
         else if (std::optional<Record> record = actions.makeRecord(action, *part_hashes))
             wave.push_back({index, std::move(*record)});
@@ -68,8 +68,7 @@ void prefetch(const Graph& planned, cache::Cache& cache, ActionCache& actions)
         cache.prefetch(keys);
         for (const PendingLookup& lookup : wave)
             if (const auto result = actions.find(graph.actions[lookup.action], lookup.record).result)
-                if (!graph.actions[lookup.action].lists_neighbours ||
-                    setNeighbourInputs(graph, lookup.action, result->neighbours))
+                if (!graph.actions[lookup.action].is_lister || applyList(graph, lookup.action, result->list))
                     hashes[lookup.action] = listHashes(*result);
     }
 }

@@ -3,7 +3,7 @@
 
 #include "formats/base/assert.h"
 #include "pipelines/graph/causes.h"
-#include "pipelines/graph/neighbour_inputs.h"
+#include "pipelines/graph/lists.h"
 
 #include <algorithm>
 
@@ -79,7 +79,7 @@ std::vector<std::string> listPendingCookers(const Graph& graph, const Action& ac
     };
     for (const Input& input : action.inputs)
         add(input.action);
-    add(action.neighbours_from);
+    add(action.lister);
     return cookers;
 }
 
@@ -100,8 +100,7 @@ Forecast forecast(Graph& graph, Resolver& resolver)
         const auto part_hashes = findPartHashes(graph.actions[i], hashes);
         HEARTH_ASSERT(part_hashes.has_value()); // nothing before it runs
         Resolution resolved = resolver.resolve(i, *part_hashes);
-        if (resolved.result && graph.actions[i].lists_neighbours &&
-            !setNeighbourInputs(graph, i, resolved.result->neighbours))
+        if (resolved.result && graph.actions[i].is_lister && !applyList(graph, i, resolved.result->list))
             resolved.result.reset();
         forecast.actions.push_back({!resolved.result, resolved.causes});
         if (resolved.result)

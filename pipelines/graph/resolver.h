@@ -61,7 +61,7 @@ struct Forecast
     std::vector<Entry> actions;         ///< [graph.actions.size()]
     std::optional<CachedOutput> result; ///< the pack, if nothing has to run
 };
-/// graph  gets the inputs that results name: setNeighbourInputs
+/// graph  gets the inputs that results name: applyList
 Forecast forecast(Graph& graph, Resolver& resolver);
 
 } // namespace hearth::graph

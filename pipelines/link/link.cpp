@@ -178,14 +178,14 @@ Status assignOffsets(std::vector<Source>& sources, const std::string& output)
 
 Status writeMeta(ContainerWriter& writer, std::span<const Source> sources,
                  const std::optional<PackView>& bricks, std::span<const std::string> skipped,
-                 const std::string& output)
+                 uint64_t texture_budget, const std::string& output)
 {
     std::vector<PartMetas> metas;
     for (const Source& source : sources)
         metas.push_back(
             {source.import_part.meta(), source.clusters_part.meta(), source.textures_part.meta()});
     HEARTH_ASSIGN_OR_RETURN(const std::string text,
-                            mergeMeta(metas, bricks ? bricks->meta() : "", skipped, output));
+                            mergeMeta(metas, bricks ? bricks->meta() : "", skipped, texture_budget, output));
     return writer.addText(kChunkMeta, text);
 }
 
@@ -550,10 +550,10 @@ Status writeBricks(ContainerWriter& writer, const PackView& part)
 
 Status writePack(const std::string& path, std::span<const Source> sources,
                  const std::vector<SpecularTableRecord>& specular, const std::optional<PackView>& bricks,
-                 std::span<const std::string> skipped)
+                 std::span<const std::string> skipped, uint64_t texture_budget)
 {
     HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer, ContainerWriter::create(path, ContainerKind::pack));
-    HEARTH_TRY(writeMeta(writer, sources, bricks, skipped, path));
+    HEARTH_TRY(writeMeta(writer, sources, bricks, skipped, texture_budget, path));
     HEARTH_TRY(writeStrings(writer, sources));
     std::vector<const PackView*> textures;
     for (const Source& source : sources)
@@ -587,7 +587,7 @@ Status checkPackFile(const std::string& path)
 
 Status linkPack(std::span<const SourceParts> sources, const std::string& output,
                 std::span<const std::string> specular_parts, const std::string& bricks_part,
-                std::span<const std::string> skipped)
+                std::span<const std::string> skipped, uint64_t texture_budget)
 {
     std::vector<Source> opened;
     for (const SourceParts& parts : sources)
@@ -600,7 +600,7 @@ Status linkPack(std::span<const SourceParts> sources, const std::string& output,
     HEARTH_ASSIGN_OR_RETURN(const std::optional<PackView> bricks, openBricks(bricks_part));
 
     const std::string unchecked = output + ".unchecked-" + std::to_string(::getpid());
-    Status status = writePack(unchecked, opened, specular, bricks, skipped);
+    Status status = writePack(unchecked, opened, specular, bricks, skipped, texture_budget);
     if (status.ok())
         status = checkPackFile(unchecked);
     if (status.ok() && ::rename(unchecked.c_str(), output.c_str()) != 0)

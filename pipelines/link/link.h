@@ -27,12 +27,13 @@ struct SourceParts
 ///                 same. May be empty
 /// bricks_part     path of the part whose grid of bricks the pack gets; empty: no bricks
 /// skipped         JSON objects for META, one for each error of a source that the pack lacks
+/// texture_budget  bytes that all textures may take on the GPU, for META; 0: no budget
 /// The pack is checked as a whole before it appears under `output`; on an error nothing appears.
 /// errors: those of reading the parts and of mergeMeta; meaning_reference where parts do not belong together,
 /// or tables differ; input_too_large where the tables grow past 32-bit indices; cannot_write; those of
 /// checkPack.
 Status linkPack(std::span<const SourceParts> sources, const std::string& output,
                 std::span<const std::string> specular_parts = {}, const std::string& bricks_part = {},
-                std::span<const std::string> skipped = {});
+                std::span<const std::string> skipped = {}, uint64_t texture_budget = 0);
 
 } // namespace hearth::link

@@ -19,6 +19,7 @@ int program(int argc, char** argv)
     std::vector<std::string> specular_parts;
     std::string bricks_part;
     std::vector<std::string> skipped;
+    uint64_t texture_budget = 0;
     app.addOption("PARTS", parts, "import, clusters, textures and skinning part of each source").required();
     app.addOption("-o,--output", output, "pack to write").required();
     app.addOption("--specular", specular_parts, "specular part, whose table the pack gets; once each")
@@ -28,6 +29,11 @@ int program(int argc, char** argv)
                   "JSON with source, code, pointer and text: an error of a source that the pack lacks, which "
                   "hearth inspect shows; once for each")
         .oneValueEach();
+    app.addOption(
+           "--texture-budget", texture_budget,
+           "bytes that the textures may take on the GPU, as hearth-budget has shared them, which hearth "
+           "inspect shows")
+        .range(uint64_t{1}, uint64_t{1} << 60, "BYTES");
     app.setCheck(
         [&parts]
         { return parts.size() % 4 == 0 ? std::string() : "PARTS: four parts are needed for each source"; });
@@ -44,7 +50,7 @@ int program(int argc, char** argv)
     for (size_t i = 0; i < parts.size(); i += 4)
         sources.push_back({parts[i], parts[i + 1], parts[i + 2], parts[i + 3]});
     const hearth::Status status =
-        hearth::link::linkPack(sources, output, specular_parts, bricks_part, skipped);
+        hearth::link::linkPack(sources, output, specular_parts, bricks_part, skipped, texture_budget);
     return status.ok() ? 0 : reportFailure(status.error());
 }
 

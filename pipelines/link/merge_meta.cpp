@@ -78,7 +78,8 @@ void mergePart(Json& merged, const Json& meta, const Json& asset)
 } // namespace
 
 Result<std::string> mergeMeta(std::span<const PartMetas> sources, std::string_view bricks,
-                              std::span<const std::string> skipped, const std::string& name)
+                              std::span<const std::string> skipped, uint64_t texture_budget,
+                              const std::string& name)
 {
     Json merged{{"schema", "hearth.meta/1"}, {"tool", {{"name", "hearth"}, {"version", HEARTH_VERSION}}},
                 {"sources", Json::array()},  {"settings", Json::object()},
@@ -107,6 +108,8 @@ Result<std::string> mergeMeta(std::span<const PartMetas> sources, std::string_vi
     }
     if (!bricks.empty())
         mergePart(merged, Json::parse(bricks).value_or(Json()), "");
+    if (texture_budget != 0)
+        merged["settings"]["texture_budget"] = texture_budget;
     for (const std::string& text : skipped)
     {
         Json failure = Json::parse(text).value_or(Json());

@@ -4,6 +4,7 @@
 
 #include "formats/base/result.h"
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,10 +24,12 @@ struct PartMetas
 /// the sources, counts are summed. The same parts give the same text: no dates, no paths of the machine.
 /// bricks   META text of the part with the pack's bricks; empty if there is none
 /// skipped  JSON objects for the list of what the pack lacks; META has that list only if there are some
+/// texture_budget  bytes that all textures may take on the GPU, for the settings; 0: no budget
 /// errors: meaning_value if a part's META or a text of `skipped` is not a JSON object; `name` is used in the
 /// message.
 Result<std::string> mergeMeta(std::span<const PartMetas> sources, std::string_view bricks,
-                              std::span<const std::string> skipped, const std::string& name);
+                              std::span<const std::string> skipped, uint64_t texture_budget,
+                              const std::string& name);
 
 /// True if the META text is that of a bricks part, with or without a grid.
 bool isBricksMeta(std::string_view meta);

@@ -7,6 +7,7 @@
 #include "pipelines/profiles/built_in.h"
 #include "pipelines/profiles/command_settings.h"
 #include "pipelines/profiles/glob.h"
+#include "pipelines/profiles/rules_by_path.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -260,6 +261,11 @@ std::string Configuration::pathInProject(const std::string& source) const
     return path.starts_with(project_folder_) ? path.substr(project_folder_.size()) : "";
 }
 
+std::string Configuration::pathForRules(const std::string& source) const
+{
+    return project_file_ ? pathInProject(source) : fs::path(source).lexically_normal().string();
+}
+
 Values Configuration::valuesOfSource(const std::string& source) const
 {
     Values values = profile_values_;
@@ -271,6 +277,7 @@ Values Configuration::valuesOfSource(const std::string& source) const
                 overlay(rule.values, values);
     }
     overlay(command_line_.settings, values);
+    selectRulesByPath(pathForRules(source), values);
     return values;
 }
 

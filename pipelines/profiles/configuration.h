@@ -47,8 +47,8 @@ public:
     const settings::Value* command(std::string_view key) const;
 
     /// Return all values that are set for a source: its profile with inherited values, then the matching
-    /// rules, later ones over earlier ones, then the command line. valuesOfPack: the same without rules, for
-    /// settings of the pack.
+    /// rules, later ones over earlier ones, then the command line; lists of rules as selectRulesByPath.
+    /// valuesOfPack: the same without rules, for settings of the pack.
     ///
     /// source  as the user typed it; rules match its path from the folder of the project's file
     settings::Values valuesOfSource(const std::string& source) const;
@@ -65,6 +65,8 @@ public:
     /// Return the path of a source from the project folder, by which rules match it; empty where it is not
     /// below that folder.
     std::string pathInProject(const std::string& source) const;
+    /// Return the path by which rules match a source, also where no project has a file: its path as typed.
+    std::string pathForRules(const std::string& source) const;
 
 private:
     Status readFiles(const Environment& environment);

@@ -418,8 +418,11 @@ std::string reportJson(const CookReport& cook)
         if (const Action& action = cook.graph->actions[i]; action.source >= cook.sources.size())
         {
             report[action.cooker] = stageJson(cook, i);
-            if (const Json grid = parseStatistics(cook, i); action.cooker == "bricks" && !grid.is_null())
-                report["bricks"]["grid"] = grid;
+            const Json statistics = parseStatistics(cook, i);
+            if (action.cooker == "bricks" && !statistics.is_null())
+                report["bricks"]["grid"] = statistics;
+            if (action.cooker == "budget" && !statistics.is_null())
+                report["budget"]["share"] = statistics;
         }
     if (!cook.error.empty())
         report["error"] = cook.error;

@@ -209,6 +209,8 @@ std::string pageData(const std::string& report_text)
     for (const cookers::Cooker& cooker : cookers::allCookers())
         if (cooker.scope == settings::Scope::pack && report.contains(cooker.name))
             data["stages"].push_back(stageRow(report[cooker.name]));
+    if (const Json budget = report.value("budget", Json::object()); budget.contains("share"))
+        data["texture_budget"] = budget["share"];
     data["explain"] = explanations(report);
     data["savings"] = savings();
     return data.dump();

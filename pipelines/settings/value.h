@@ -24,6 +24,8 @@ struct Value
 {
     std::string text;
     std::string origin; ///< place where it was set, for users: "hearth.toml:12", "--jobs", "HEARTH_JOBS"
+    /// of tables some of which were left out: number of each that is there, among all; else empty
+    std::vector<size_t> rule_numbers{};
 };
 
 /// Values by key.

@@ -64,6 +64,8 @@ const std::vector<Layer>& layers()
         {"cook/texels",
          {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/texels/blocks", "cook/texels/bc",
           "cook/texels/etc2", "cook/texels/rules"}},
+        {"cook/estimates",
+         {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/texels", "cook/texels/rules"}},
 
         {"cook/clusters/core", {"formats", "cook/mesh", "cook/animation_bounds"}},
         {"cook/clusters/partition", {"formats", "cook/mesh", "cook/clusters/core"}},
@@ -227,8 +229,7 @@ const std::vector<Library>& libraries()
         {"stddef.h", {"runtime/c/"}, true},        // hearth.h is C
         {"stdint.h", {"runtime/c/"}, true},
         {"png.h",
-         {"pipelines/import/images/", "cook/tools/", "runtime/viewer/compare/",
-          "sample_assets/shapes/"}},
+         {"pipelines/import/images/", "cook/tools/", "runtime/viewer/compare/", "sample_assets/shapes/"}},
         {"zlib.h", {"pipelines/import/images/"}},
         {"jpeglib.h", {"pipelines/import/"}},
         {"jerror.h", {"pipelines/import/"}},

@@ -4,7 +4,7 @@
 #include "pipelines/graph/causes.h"
 #include "pipelines/graph/cook_graph.h"
 #include "pipelines/graph/journal.h"
-#include "pipelines/graph/neighbour_inputs.h"
+#include "pipelines/graph/lists.h"
 #include "pipelines/graph/plan_json.h"
 #include "pipelines/graph/skip_source.h"
 
@@ -175,8 +175,8 @@ TEST(CookGraph, readsNeighboursWhereThePackHasOtherSources)
         settings.values_of_source.assign(
             sources.size(), {{"visibility.occluders", {"\"" + std::string(occluders) + "\"", ""}}});
         const Graph graph = makeCookGraph(settings).value();
-        return std::ranges::count_if(graph.actions, [](const Action& action)
-                                     { return action.neighbours_from != kNoAction; });
+        return std::ranges::count_if(graph.actions,
+                                     [](const Action& action) { return action.lister != kNoAction; });
     };
     EXPECT_EQ(countNeighbours({"a.obj"}, "pack"), 0);
     EXPECT_EQ(countNeighbours({"a.obj", "b.obj"}, "pack"), 2);
@@ -229,7 +229,7 @@ TEST(NeighbourInputs, areThePartsOfTheListedSources)
     ASSERT_EQ(findAction(graph, "visibility", 1), graph.actions.size());
     for (const Input& input : graph.actions[lister].inputs)
         EXPECT_EQ(graph.actions[input.action].outputs[input.output], "import.json");
-    ASSERT_TRUE(setNeighbourInputs(graph, lister, "1 2\n\n1\n"));
+    ASSERT_TRUE(applyList(graph, lister, "1 2\n\n1\n"));
     EXPECT_EQ(listDynamicInputs(graph, graph.actions[a]),
               (Words{"import 1", "clusters 1", "import 2", "clusters 2"}));
     EXPECT_EQ(listDynamicInputs(graph, graph.actions[c]), (Words{"import 1", "clusters 1"}));
@@ -241,10 +241,10 @@ TEST(NeighbourInputs, areThePartsOfTheListedSources)
             EXPECT_TRUE(input.action == kNoAction ||
                         input.action < static_cast<size_t>(&action - graph.actions.data()));
     // another list replaces it
-    ASSERT_TRUE(setNeighbourInputs(graph, lister, "\n\n0\n"));
+    ASSERT_TRUE(applyList(graph, lister, "\n\n0\n"));
     EXPECT_EQ(listDynamicInputs(graph, graph.actions[a]), Words());
     EXPECT_EQ(listDynamicInputs(graph, graph.actions[c]), (Words{"import 0", "clusters 0"}));
-    removeNeighbourInputs(graph, lister);
+    removeListed(graph, lister);
     EXPECT_EQ(planJson(graph), planJson(before));
 }
 
@@ -255,8 +255,8 @@ TEST(NeighbourInputs, haveTheSameRecordWhateverElseThePackHas)
     more.sources = {"z.obj", "a.obj", "b.obj", "c.obj"};
     more.output = "more.hearth";
     Graph larger = makeCookGraph(more).value();
-    ASSERT_TRUE(setNeighbourInputs(graph, findAction(graph, "neighbours", 3), "1\n\n\n"));
-    ASSERT_TRUE(setNeighbourInputs(larger, findAction(larger, "neighbours", 4), "\n2\n\n\n"));
+    ASSERT_TRUE(applyList(graph, findAction(graph, "neighbours", 3), "1\n\n\n"));
+    ASSERT_TRUE(applyList(larger, findAction(larger, "neighbours", 4), "\n2\n\n\n"));
     const std::vector<std::string> hashes{"import", "clusters", "import b", "clusters b"};
     EXPECT_EQ(makeRecord(graph.actions[findAction(graph, "visibility", 0)], "v", hashes),
               makeRecord(larger.actions[findAction(larger, "visibility", 1)], "v", hashes));
@@ -270,9 +270,59 @@ TEST(NeighbourInputs, areRefusedWhereTheListIsMalformed)
     for (const char* list : {"", "\n\n", "\n\n\n\n", "\n\n", "3\n\n\n", "-1\n\n\n", "1  2\n\n\n", "1 \n\n\n",
                              "a\n\n\n", "99999999999999999999\n\n\n", "\n\n1"})
     {
-        EXPECT_FALSE(setNeighbourInputs(graph, lister, list)) << list;
+        EXPECT_FALSE(applyList(graph, lister, list)) << list;
         EXPECT_EQ(planJson(graph), planJson(before)) << list;
     }
+}
+
+TEST(BudgetWords, areTheListedFormatsOfASourcesOwnTextures)
+{
+    CookSettings settings;
+    settings.sources = {"a.obj", "b.obj", "c.obj"};
+    settings.output = "out.hearth";
+    settings.values_of_source.resize(3);
+    settings.values_of_source[1]["textures.families"].text = "[]";
+    const Graph without = makeCookGraph(settings).value();
+    EXPECT_EQ(findAction(without, "estimates", 0), without.actions.size());
+    EXPECT_EQ(findAction(without, "budget", 3), without.actions.size());
+    settings.values_of_pack = {{"textures.budget", {"50331648", ""}}};
+    Graph graph = makeCookGraph(settings).value();
+    const Graph before = graph;
+    const size_t budget = findAction(graph, "budget", 3);
+    ASSERT_LT(budget, graph.actions.size());
+    EXPECT_EQ(getCommands(graph)[budget],
+              (Words{"bin/hearth-budget", "{estimates.json}", "{estimates.json}", "-o", "{budget.txt}",
+                     "--bytes", "50331648", "--stats", "{budget.json}"}))
+        << "textures of a source that stay plain are not shared with";
+    const size_t a = findAction(graph, "texels", 0), c = findAction(graph, "texels", 2);
+    EXPECT_EQ(graph.actions[a].lister, budget);
+    EXPECT_EQ(findAction(graph, "texels", 1), graph.actions.size());
+    const Words plain = getCommands(graph)[c];
+    ASSERT_TRUE(applyList(graph, budget, "\n0=astc-6x6-srgb 1=eac-rg11-unorm\n"));
+    EXPECT_EQ(getCommands(graph)[a], getCommands(before)[a]);
+    Words expected = plain;
+    expected.insert(expected.end(), {"--format", "0=astc-6x6-srgb", "--format", "1=eac-rg11-unorm"});
+    EXPECT_EQ(getCommands(graph)[c], expected);
+    ASSERT_TRUE(applyList(graph, budget, "0=bc7-srgb\n\n"));
+    EXPECT_EQ(getCommands(graph)[c], plain) << "another list replaces it";
+    removeListed(graph, budget);
+    EXPECT_EQ(planJson(graph), planJson(before));
+    for (const char* list : {"", "\n", "\n\n\n", "0=a", "0=a\n1=b", "0=a  1=b\n\n", " 0=a\n\n", "0=a \n\n"})
+        EXPECT_FALSE(applyList(graph, budget, list)) << list;
+    EXPECT_EQ(planJson(graph), planJson(before));
+}
+
+TEST(BudgetWords, areThoseOfASourceAlone)
+{
+    CookSettings settings;
+    settings.sources = {"a.obj"};
+    settings.output = "out.hearth";
+    settings.values_of_pack = {{"textures.budget", {"1000", ""}}};
+    const Graph graph = makeCookGraph(settings).value();
+    EXPECT_EQ(graph.actions[findAction(graph, "texels", 0)].lister, findAction(graph, "budget", 1));
+    const Words link = getCommands(graph).back();
+    EXPECT_EQ(Words(link.end() - 2, link.end()), (Words{"--texture-budget", "1000"}));
+    EXPECT_EQ(findAction(graph, "neighbours", 1), graph.actions.size());
 }
 
 TEST(CookGraph, refusesLevelsOfDetailThatAreNone)
@@ -294,7 +344,7 @@ TEST(PlanJson, comesBack)
     EXPECT_EQ(getCommands(*again), getCommands(graph));
     // with inputs that are statistics, and dynamic ones
     Graph neighbours = neighbourGraph();
-    ASSERT_TRUE(setNeighbourInputs(neighbours, findAction(neighbours, "neighbours", 3), "1 2\n\n1\n"));
+    ASSERT_TRUE(applyList(neighbours, findAction(neighbours, "neighbours", 3), "1 2\n\n1\n"));
     const std::string expanded = planJson(neighbours);
     ASSERT_TRUE(parsePlan(expanded, "plan.json").ok());
     EXPECT_EQ(planJson(*parsePlan(expanded, "plan.json")), expanded);

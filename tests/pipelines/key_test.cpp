@@ -132,8 +132,8 @@ protected:
     Sandbox folder;
 };
 
-const std::set<std::string> kOfSource{"import",   "textures",   "texels", "clusters",
-                                      "skinning", "visibility", "bricks", "link"};
+const std::set<std::string> kOfSource{"import",   "textures", "estimates",  "budget", "texels",
+                                      "clusters", "skinning", "visibility", "bricks", "link"};
 
 } // namespace
 
@@ -160,8 +160,8 @@ TEST_F(Keys, everyParameterChangesThem)
              s.values_of_source.push_back(s.values_of_source[0]);
              s.lods_of_source.emplace_back();
          },
-         {"import", "textures", "texels", "clusters", "skinning", "neighbours", "visibility", "bricks",
-          "link"}},
+         {"import", "textures", "estimates", "budget", "texels", "clusters", "skinning", "neighbours",
+          "visibility", "bricks", "link"}},
         {"no lod", [](CookSettings& s) { s.lods_of_source.clear(); }, kOfSource},
         {"another level", [&](CookSettings& s) { s.lods_of_source = {{"2=" + low}}; }, kOfSource},
         {"another lod", [&](CookSettings& s) { s.lods_of_source = {{"1=" + s.sources[0]}}; }, kOfSource},
@@ -183,8 +183,8 @@ TEST_F(Keys, everySettingChangesThoseOfItsCookerAndItsReaders)
     const std::map<std::string, std::set<std::string>> readers{
         {"import", kOfSource},
         {"clusters", {"clusters", "skinning", "visibility", "bricks", "link"}},
-        {"textures", {"textures", "texels", "bricks", "link"}},
-        {"texels", {"texels", "link"}},
+        {"textures", {"textures", "estimates", "budget", "texels", "bricks", "link"}},
+        {"texels", {"estimates", "budget", "texels", "link"}},
         {"visibility", {"visibility", "link"}},
         {"bricks", {"bricks", "link"}}};
     for (const cookers::Cooker& cooker : cookers::allCookers())
@@ -219,6 +219,9 @@ TEST_F(Keys, flagsAddTheirCookers)
     other = settings;
     other.values_of_pack["bricks.mode"].text = "\"off\"";
     EXPECT_EQ(changed(before, keys(other)), (std::set<std::string>{"bricks", "link"}));
+    other = settings;
+    other.values_of_pack.erase("textures.budget");
+    EXPECT_EQ(changed(before, keys(other)), (std::set<std::string>{"estimates", "budget", "link"}));
 }
 
 TEST_F(Keys, everyFileChangesThem)

@@ -74,6 +74,42 @@ private:
 
 } // namespace
 
+TEST_F(Configurations, rulesByPathAreThoseOfTheSource)
+{
+    folder.write("house/hearth.toml", "[defaults]\nprofile = 'p'\n[profile.p]\n"
+                                      "[[profile.p.textures.image]]\npath = 'props/**'\nformat = 'plain'\n"
+                                      "[[profile.p.textures.image]]\nname = 'a*'\ntarget = 38\n"
+                                      "[[profile.p.textures.image]]\nname = 'b'\npath = '*.glb'\n"
+                                      "quality = 'high'\n");
+    const auto rules = [&](const std::string& source)
+    {
+        const Values values = load()->valuesOfSource(source);
+        const Value* value = findValue(values, "textures.image");
+        return value == nullptr ? Value{"none"} : *value;
+    };
+    EXPECT_EQ(rules("props/small/a.glb").text, R"([{name="*",format="plain"},{name="a*",target=38}])");
+    EXPECT_EQ(rules("props/small/a.glb").rule_numbers, (std::vector<size_t>{0, 1}));
+    EXPECT_EQ(rules("a.glb").text, R"([{name="a*",target=38},{name="b",quality="high"}])");
+    EXPECT_EQ(rules("a.glb").rule_numbers, (std::vector<size_t>{1, 2}));
+    EXPECT_EQ(rules("low/a.glb").text, R"([{name="a*",target=38}])");
+    // from another folder, and where nothing is left
+    enter("house/props");
+    folder.write("house/hearth.toml", "[defaults]\nprofile = 'p'\n[profile.p]\n"
+                                      "textures.image = [{path='props/a.glb',target=30}]\n");
+    EXPECT_EQ(rules("a.glb").text, R"([{name="*",target=30}])");
+    EXPECT_EQ(rules("b.glb").text, "none");
+    EXPECT_EQ(rules("../../a.glb").text, "none") << "outside of the project";
+    // without a project the path is that of the command line
+    enter("");
+    CommandLineValues given;
+    given.settings["textures.image"] = {R"([{path="x/*",target=30}])", "--set"};
+    const auto configuration = load(given);
+    ASSERT_TRUE(configuration.ok());
+    EXPECT_EQ(configuration->valuesOfSource("x/a.glb").at("textures.image").text,
+              R"([{name="*",target=30}])");
+    EXPECT_FALSE(configuration->valuesOfSource("y/a.glb").contains("textures.image"));
+}
+
 TEST_F(Configurations, flagsWinOverEnvironmentProjectAndUser)
 {
     EXPECT_EQ(what("jobs", ""), "none");

@@ -54,6 +54,18 @@ TEST(TextureRules, nameWinsOverRoleOverAll)
     EXPECT_FALSE(resolve(ImageRole::normal, "ui_n").target) << "a format by name replaces a target by role";
 }
 
+TEST(TextureRules, haveANameOrAPathOrBoth)
+{
+    const auto rules = parseTextureRules("textures.image=[{path='assets/ui/**',format='plain'},"
+                                         "{name='a*',path='b',target=38}]",
+                                         "");
+    ASSERT_TRUE(rules.ok());
+    EXPECT_EQ(rules->images[0].name, "*");
+    EXPECT_EQ(rules->images[0].path, "assets/ui/**");
+    EXPECT_EQ(rules->images[1].name, "a*");
+    EXPECT_EQ(rules->images[1].path, "b");
+}
+
 TEST(TextureRules, formatsAreNamedInFullOrWithoutTheMeaningOfTheirNumbers)
 {
     const TexelFormatTraits& srgb = texelTraits(astcFormat(TexelFormat::astc_srgb, 4));
@@ -81,8 +93,9 @@ TEST(TextureRules, faultsNameTheirPlaceAndWhatIsRight)
               "textures.role[0]: sets nothing: give it target, quality, families or format");
     EXPECT_EQ(fault("textures.role=[{role='data',target=-1}]"),
               "textures.role[0].target: must be a number above 0, at most 100");
-    EXPECT_EQ(fault("textures.image=[{target=38}]"),
-              "textures.image[0].name: is missing: the names that the rule is for");
+    EXPECT_EQ(
+        fault("textures.image=[{target=38}]"),
+        "textures.image[0].name: is missing: the names, or with path the sources, that the rule is for");
     EXPECT_EQ(fault("textures.image=[{name='a',quality='best'}]"),
               "textures.image[0].quality: \"best\" is none of draft, normal, high");
     EXPECT_EQ(fault("textures.image=[{name='a',families=['pvrtc']}]"),

@@ -146,11 +146,13 @@ Result<ImageRole> readRole(const TomlNode& table, const Location& place)
     return static_cast<ImageRole>(static_cast<ptrdiff_t>(ImageRole::color) + (found - known.begin()));
 }
 
-Status checkMembers(const TomlNode& table, const Location& place, const char* first)
+/// Check that a rule is a table of known members. `own` are those that say which textures it is for.
+Status checkMembers(const TomlNode& table, const Location& place, Keys own)
 {
     if (!table.isTable())
         return place.wrong(Issue::profile_value, "must be a table");
-    const Keys known{first, "target", "quality", "families", "format"};
+    Keys known = std::move(own);
+    known.insert(known.end(), {"target", "quality", "families", "format"});
     for (const TomlNode& member : table.children)
         if (std::ranges::find(known, member.key) == known.end())
             return unknownWord(place, Issue::profile_key, member.key, known);
@@ -159,7 +161,7 @@ Status checkMembers(const TomlNode& table, const Location& place, const char* fi
 
 Result<RoleRule> readRoleRule(const TomlNode& table, const Location& place)
 {
-    HEARTH_TRY(checkMembers(table, place, "role"));
+    HEARTH_TRY(checkMembers(table, place, {"role"}));
     RoleRule rule;
     HEARTH_ASSIGN_OR_RETURN(rule.role, readRole(table, place));
     HEARTH_ASSIGN_OR_RETURN(rule.choice, readChoice(table, place));
@@ -168,12 +170,21 @@ Result<RoleRule> readRoleRule(const TomlNode& table, const Location& place)
 
 Result<NameRule> readNameRule(const TomlNode& table, const Location& place)
 {
-    HEARTH_TRY(checkMembers(table, place, "name"));
-    NameRule rule;
+    HEARTH_TRY(checkMembers(table, place, {"name", "path"}));
+    NameRule rule{.name = "*"};
     const TomlNode* name = table.find("name");
-    if (name == nullptr)
-        return place.at("name").wrong(Issue::profile_value, "is missing: the names that the rule is for");
-    HEARTH_ASSIGN_OR_RETURN(rule.name, readText(*name, place.at("name")));
+    const TomlNode* path = table.find("path");
+    if (name == nullptr && path == nullptr)
+        return place.at("name").wrong(
+            Issue::profile_value, "is missing: the names, or with path the sources, that the rule is for");
+    if (name != nullptr)
+    {
+        HEARTH_ASSIGN_OR_RETURN(rule.name, readText(*name, place.at("name")));
+    }
+    if (path != nullptr)
+    {
+        HEARTH_ASSIGN_OR_RETURN(rule.path, readText(*path, place.at("path")));
+    }
     HEARTH_ASSIGN_OR_RETURN(rule.choice, readChoice(table, place));
     return rule;
 }

@@ -37,6 +37,7 @@ struct RoleRule
 struct NameRule
 {
     std::string name; ///< a pattern, as matchesPattern
+    std::string path; ///< pattern of sources, which hearth replaces before it starts a cooker; empty: any
     TextureChoice choice{};
 };
 

@@ -209,7 +209,10 @@ void warnOfUnmatchedTextures(const graph::Graph& graph, graph::Executor& executo
                              Listeners& listeners)
 {
     const auto hasRules = [](const settings::Values& values)
-    { return settings::findValue(values, "textures.image") != nullptr; };
+    {
+        return settings::findValue(values, "textures.image") != nullptr ||
+               settings::findValue(values, "textures.role") != nullptr;
+    };
     if (std::ranges::none_of(options.values_of_source, hasRules))
         return;
     std::vector<std::optional<std::string>> statistics(options.sources.size());

@@ -192,8 +192,11 @@ MetaSummary readMeta(std::string_view json)
                               readCount(clip, "bytes_before"), readCount(clip, "bytes"),
                               readNumber(clip, "stated_error"), readNumber(clip, "proven_error")});
     if (const Json* settings = root.find("settings"); settings != nullptr && settings->is_object())
+    {
+        meta.texture_budget = readCount(*settings, "texture_budget");
         if (const Json* bricks = settings->find("bricks"); bricks != nullptr && bricks->is_object())
             meta.no_bricks = readString(*bricks, "none");
+    }
     meta.messages = readMessages(root, "messages");
     meta.skipped = readMessages(root, "skipped");
     if (const Json* dropped = root.find("dropped"); dropped != nullptr && dropped->is_array())

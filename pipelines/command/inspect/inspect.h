@@ -92,6 +92,7 @@ struct MetaSummary
     std::vector<MessageSummary> messages;
     std::vector<std::string> dropped;
     std::string no_bricks;               ///< why the cook made none; empty: switched off, or it made some
+    uint64_t texture_budget = 0; ///< bytes that the textures may take on the GPU; 0: the cook had no budget
     std::vector<MessageSummary> skipped; ///< errors of sources that the pack lacks
 };
 

@@ -294,6 +294,8 @@ Json totalsJson(const PackView& pack, const PackSummary& summary)
             image_gpu_bytes += entry.size;
         }
     return {{"source", summary.meta.counts},
+            {"texture_budget_bytes",
+             summary.meta.texture_budget == 0 ? Json() : Json(summary.meta.texture_budget)},
             {"meshes", pack.meshes().size()},
             {"levels", levels},
             {"texture_gpu_bytes", image_gpu_bytes},

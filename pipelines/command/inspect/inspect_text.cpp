@@ -218,20 +218,24 @@ std::string encodingText(const ImageRecord& image)
                                                  imageErrorText(role, double{image.error}));
 }
 
-std::string imagesText(const PackView& pack)
+std::string imagesText(const PackView& pack, const PackSummary& summary)
 {
     std::string text;
+    uint64_t gpu_bytes = 0;
     for (uint32_t i = 0; i < pack.images().size(); ++i)
     {
         const ImageRecord& image = pack.images()[i];
         const ChunkEntry* data = pack.container().find(kChunkImageData, i);
-        text +=
-            fmt::format("image {} \"{}\": {} x {}, {} mips, {}, {} on the GPU, {} stored{}{}\n", i,
-                        printable(pack.text(image.name)), image.width, image.height, image.mip_count,
-                        texelFormatName(image.format), readableSize(data == nullptr ? 0 : data->size),
-                        readableSize(data == nullptr ? 0 : data->stored_size), encodingText(image),
-                        (image.flags & kImagePlaceholder) != 0 ? ", placeholder" : "");
+        gpu_bytes += data == nullptr ? 0 : data->size;
+        text += fmt::format("image {} \"{}\": {} x {}, {} mips, {}, {} on the GPU, {} stored{}{}\n", i,
+                            printable(pack.text(image.name)), image.width, image.height, image.mip_count,
+                            texelFormatName(image.format), readableSize(data == nullptr ? 0 : data->size),
+                            readableSize(data == nullptr ? 0 : data->stored_size), encodingText(image),
+                            (image.flags & kImagePlaceholder) != 0 ? ", placeholder" : "");
     }
+    if (const uint64_t budget = summary.meta.texture_budget; budget != 0)
+        text += fmt::format("images: {} on the GPU of a budget of {}\n", readableSize(gpu_bytes),
+                            readableSize(budget));
     return text.empty() ? text : "\n" + text;
 }
 
@@ -275,8 +279,8 @@ std::string inspectText(const PackView& pack, const PackSummary& summary)
                        visibilityText(pack) + specularText(pack) + bricksText(pack, summary.meta);
     for (size_t i = 0; i < summary.meshes.size(); ++i)
         text += meshText(summary.meshes[i], i);
-    return text + layersText(pack) + imagesText(pack) + extrasText(pack) + messagesText(summary.meta) +
-           chunksText(pack);
+    return text + layersText(pack) + imagesText(pack, summary) + extrasText(pack) +
+           messagesText(summary.meta) + chunksText(pack);
 }
 
 } // namespace hearth::command

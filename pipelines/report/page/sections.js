@@ -183,7 +183,7 @@ function errorShare(role, value, target) {
   return role === 'normal' || role === 'light' ? value / target : 10 ** ((target - value) / 20);
 }
 
-const kReasons = {target: 'the fewest bytes that hold the target', rule: 'named by a rule'};
+const kReasons = {target: 'the fewest bytes that hold the target', rule: 'named by a rule', budget: 'its share of the budget of all textures'};
 
 /** Shows a thumbnail beside the picture of its error, both parts of the sheet of the asset. */
 function texturePictures(texture) {
@@ -195,6 +195,13 @@ function texturePictures(texture) {
     svg('svg.crop', {role: 'img', 'aria-label': `${texture.name}: ${what}`, viewBox: `${left} ${y} ${width} ${height}`}, svg('image', {href: sheet})), el('figcaption', {}, caption));
   return el('div.pair', {}, part(x, `${texture.width} × ${texture.height}`, 'thumbnail'),
             part(errorX, brightest === null ? 'no error' : ['error ', el('i.scale'), ` ${white}`], 'error'));
+}
+
+/** Tells what the budget of all textures did; nothing without one. */
+function budgetLine(share) {
+  if (!share) return null;
+  const range = `from ${bytes(share.min_bytes)} in the smallest formats to ${bytes(share.max_bytes)} in the best`;
+  return el('p' + (share.holds_budget ? '' : '.warn'), {}, `${bytes(share.bytes)} of a budget of ${bytes(share.budget)} on the GPU; ${share.textures} textures take ${range}.`);
 }
 
 function texturesSection(data) {
@@ -240,7 +247,7 @@ function texturesSection(data) {
          el('tbody', {}, row(texture.format, texture.memory, encoding.error, encoding.smooth, '.chosen'), others.map(candidate => row(...candidate, '')))),
       el('p.faint', {}, others.length ? 'The search estimated the others from some of their blocks.' : 'The search looked at no other format.')].filter(Boolean));
   }
-  const part = section('textures', 'Textures', 'errors against the uncompressed texture; more decibels, or fewer degrees, are better', el('div.split', {}, table.table, detail));
+  const part = section('textures', 'Textures', 'errors against the uncompressed texture; more decibels, or fewer degrees, are better', budgetLine(data.texture_budget), el('div.split', {}, table.table, detail));
   return {part: table.filter ? withTools(part, table.filter) : part, choose: table.choose, first: table.first};
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/graph/neighbour_inputs.h"
+#include "pipelines/graph/lists.h"
 
 #include "pipelines/cookers/registry.h"
 
@@ -13,6 +13,8 @@
 
 namespace hearth::graph
 {
+
+using cookers::Lists;
 
 namespace
 {
@@ -49,7 +51,7 @@ std::optional<std::vector<size_t>> parseLine(std::string_view line, size_t count
 }
 
 /// Parse the whole list; nullopt where it does not have a line for each of `count` inputs.
-std::optional<std::vector<std::vector<size_t>>> parseList(std::string_view list, size_t count)
+std::optional<std::vector<std::vector<size_t>>> parseNumbers(std::string_view list, size_t count)
 {
     std::vector<std::vector<size_t>> lines;
     while (!list.empty())
@@ -73,18 +75,25 @@ uint64_t partMemory(const Action& producer)
     return producer.estimate.memory_bytes - std::min(producer.estimate.memory_bytes, base);
 }
 
-/// Return the position of the option in an action's words, and their number where it has none.
-size_t findOption(const Action& action)
+/// Return the content of the list that an action writes.
+Lists listContent(const Action& lister)
 {
-    const auto isOption = [](const Word& word)
-    { return word.kind == Word::Kind::text && word.text == kNeighboursOption; };
+    const cookers::Cooker* cooker = cookers::findCooker(lister.cooker);
+    return cooker == nullptr ? Lists::nothing : cooker->lists;
+}
+
+/// Return the position of the first such option in an action's words, and their number where it has none.
+size_t findOption(const Action& action, std::string_view option)
+{
+    const auto isOption = [&](const Word& word)
+    { return word.kind == Word::Kind::text && word.text == option; };
     return static_cast<size_t>(std::ranges::find_if(action.words, isOption) - action.words.begin());
 }
 
 /// Remove the dynamic inputs of an action: all after the option.
 void removeInputs(const Graph& graph, Action& action)
 {
-    const size_t option = findOption(action);
+    const size_t option = findOption(action, kNeighboursOption);
     if (option == action.words.size())
         return;
     const size_t first = action.words[option + 1].index;
@@ -113,35 +122,93 @@ void addInputs(const Graph& graph, const SourceActions& actions, const std::vect
         }
 }
 
-} // namespace
+/// Parse the whole list; nullopt where it does not have a line of words for each of `count` inputs.
+std::optional<std::vector<std::vector<std::string>>> parseWords(std::string_view list, size_t count)
+{
+    std::vector<std::vector<std::string>> lines;
+    while (!list.empty())
+    {
+        const size_t end = list.find('\n');
+        if (end == std::string_view::npos)
+            return std::nullopt;
+        std::vector<std::string>& words = lines.emplace_back();
+        for (std::string_view line = list.substr(0, end); !line.empty();)
+        {
+            const size_t space = std::min(line.find(' '), line.size());
+            if (space == 0 || space + 1 == line.size())
+                return std::nullopt;
+            words.emplace_back(line.substr(0, space));
+            line.remove_prefix(std::min(space + 1, line.size()));
+        }
+        list.remove_prefix(end + 1);
+    }
+    return lines.size() == count ? std::optional(std::move(lines)) : std::nullopt;
+}
 
-void removeNeighbourInputs(Graph& graph, size_t lister)
+void addWords(const std::vector<std::string>& values, Action& action)
+{
+    for (const std::string& value : values)
+        for (const std::string& word : {std::string(kFormatOption), value})
+            action.words.push_back({Word::Kind::text, word, 0});
+}
+
+/// Return the numbers of the sources that an action reads, in the order of its inputs.
+std::vector<size_t> listSources(const Graph& graph, const Action& action)
+{
+    std::vector<size_t> sources;
+    for (const Input& input : action.inputs)
+        sources.push_back(graph.actions[input.action].source);
+    return sources;
+}
+
+/// Call a function for each action that a list completes, with its line.
+template <typename Lines, typename Add>
+void visitListed(Graph& graph, size_t lister, const std::vector<size_t>& sources, const Lines& lines,
+                 const Add& add)
 {
     for (Action& action : graph.actions)
-        if (action.neighbours_from == lister)
+    {
+        const auto line = static_cast<size_t>(std::ranges::find(sources, action.source) - sources.begin());
+        if (action.lister == lister && line != sources.size())
+            add(lines[line], action);
+    }
+}
+
+} // namespace
+
+void removeListed(Graph& graph, size_t lister)
+{
+    const bool has_words = listContent(graph.actions[lister]) == Lists::words;
+    for (Action& action : graph.actions)
+        if (action.lister == lister && has_words)
+            action.words.resize(findOption(action, kFormatOption));
+        else if (action.lister == lister)
             removeInputs(graph, action);
 }
 
-bool setNeighbourInputs(Graph& graph, size_t lister, std::string_view list)
+bool applyList(Graph& graph, size_t lister, std::string_view list)
 {
-    removeNeighbourInputs(graph, lister);
-    std::vector<size_t> sources;
-    for (const Input& input : graph.actions[lister].inputs)
-        sources.push_back(graph.actions[input.action].source);
-    const auto lines = parseList(list, sources.size());
+    removeListed(graph, lister);
+    const std::vector<size_t> sources = listSources(graph, graph.actions[lister]);
+    if (listContent(graph.actions[lister]) == Lists::words)
+    {
+        const auto lines = parseWords(list, sources.size());
+        if (lines)
+            visitListed(graph, lister, sources, *lines, addWords);
+        return lines.has_value();
+    }
+    const auto lines = parseNumbers(list, sources.size());
     if (!lines)
         return false;
     const SourceActions actions = indexActions(graph);
-    for (Action& action : graph.actions)
-    {
-        const auto line = std::ranges::find(sources, action.source) - sources.begin();
-        if (action.neighbours_from != lister || static_cast<size_t>(line) == sources.size())
-            continue;
-        std::vector<size_t> neighbours;
-        for (const size_t number : (*lines)[static_cast<size_t>(line)])
-            neighbours.push_back(sources[number]);
-        addInputs(graph, actions, neighbours, action);
-    }
+    visitListed(graph, lister, sources, *lines,
+                [&](const std::vector<size_t>& numbers, Action& action)
+                {
+                    std::vector<size_t> neighbours;
+                    for (const size_t number : numbers)
+                        neighbours.push_back(sources[number]);
+                    addInputs(graph, actions, neighbours, action);
+                });
     return true;
 }
 
