@@ -29,8 +29,8 @@ struct BudgetShare
 
 /// Choose an option of each texture. Their cost together is at most one step of one texture's convex hull
 /// above the least that is possible with so many bytes: steps are taken by falling cost / bytes, as long as
-/// they fit (Shoham and Gersho, Efficient bit allocation for an arbitrary set of quantizers, 1988). Options in
-/// another order give the same cost. Time O(n log n) of the options.
+/// they fit (Shoham and Gersho, Efficient bit allocation for an arbitrary set of quantizers, 1988). Options
+/// in another order give the same cost. Time O(n log n) of the options.
 BudgetShare shareBudget(std::span<const BudgetOptions> textures, uint64_t budget);
 
 } // namespace hearth::budget

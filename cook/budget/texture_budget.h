@@ -42,7 +42,8 @@ struct TextureShare
 /// same one.
 TextureShare shareTextures(std::span<const SourceTextures> sources, uint64_t budget);
 
-/// Return the list that completes the actions of sources: a line for each, with "IMAGE=FORMAT" for each image.
+/// Return the list that completes the actions of sources: a line for each, with "IMAGE=FORMAT" for each
+/// image.
 std::string listText(const TextureShare& share);
 
 /// Return JSON text with the schema "hearth.budget/1".

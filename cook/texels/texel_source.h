@@ -36,8 +36,8 @@ public:
         return textures_.materialLayers();
     }
 
-    /// Load an image. errors: those of PackView::imageData; meaning_value and chunk_size where its record does
-    /// not describe plain mips
+    /// Load an image. errors: those of PackView::imageData; meaning_value and chunk_size where its record
+    /// does not describe plain mips
     Result<LoadedImage> load(uint32_t index) const;
 
 private:

@@ -52,8 +52,8 @@ struct Action
     /// File names, unique among the actions of one source. At least one; the first is the part.
     std::vector<std::string> outputs;
     bool is_lister = false; ///< its first output is a list that applyList reads
-    /// Index of the action whose list names further inputs or words of this one, which applyList adds once the
-    /// list is known; kNoAction: none
+    /// Index of the action whose list names further inputs or words of this one, which applyList adds once
+    /// the list is known; kNoAction: none
     size_t lister = kNoAction;
     bool finds_files = false; ///< reads files that are not declared inputs, and lists them with --depfile
     bool depends_on_processor = false; ///< output bytes are equal only on processors of one class

@@ -64,8 +64,7 @@ const std::vector<Layer>& layers()
         {"cook/texels",
          {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/texels/blocks", "cook/texels/bc",
           "cook/texels/etc2", "cook/texels/rules"}},
-        {"cook/estimates",
-         {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/texels", "cook/texels/rules"}},
+        {"cook/estimates", {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/texels"}},
 
         {"cook/clusters/core", {"formats", "cook/mesh", "cook/animation_bounds"}},
         {"cook/clusters/partition", {"formats", "cook/mesh", "cook/clusters/core"}},

@@ -85,7 +85,7 @@ TEST_F(Configurations, rulesByPathAreThoseOfTheSource)
     {
         const Values values = load()->valuesOfSource(source);
         const Value* value = findValue(values, "textures.image");
-        return value == nullptr ? Value{"none"} : *value;
+        return value == nullptr ? Value{"none", ""} : *value;
     };
     EXPECT_EQ(rules("props/small/a.glb").text, R"([{name="*",format="plain"},{name="a*",target=38}])");
     EXPECT_EQ(rules("props/small/a.glb").rule_numbers, (std::vector<size_t>{0, 1}));
