@@ -83,7 +83,8 @@ protected:
         {
             const size_t stop = std::min(end.err.find('\n', begin), end.err.size());
             const std::string line = end.err.substr(begin, stop - begin);
-            runs += line.starts_with(cooker + " ") && line.find(" s ") != std::string::npos ? 1 : 0;
+            if (line.starts_with(cooker + " ") && line.find(" s ") != std::string::npos)
+                ++runs;
             begin = stop + 1;
         }
         return runs;
