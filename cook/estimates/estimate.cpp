@@ -28,9 +28,10 @@ double findCost(const PlainImage& image, const ImageError& error, const Target& 
 std::string hashContent(const PlainImage& image)
 {
     const ImageRecord& record = image.record;
-    return tools::computeSha256(fmt::format(
-        "{} {} {} {} {} {} {}\n{}", record.width, record.height, record.mip_count, record.format,
-        static_cast<int>(image.role), image.channels, image.record.alpha_cutoff, tools::computeSha256(image.mips)));
+    return tools::computeSha256(fmt::format("{} {} {} {} {} {} {}\n{}", record.width, record.height,
+                                            record.mip_count, record.format, static_cast<int>(image.role),
+                                            image.channels, image.record.alpha_cutoff,
+                                            tools::computeSha256(image.mips)));
 }
 
 EstimatedImage estimateImage(const LoadedImage& loaded, const Request& request)
@@ -38,8 +39,9 @@ EstimatedImage estimateImage(const LoadedImage& loaded, const Request& request)
     const PlainImage& image = loaded.image;
     const std::vector<SmoothCells> smooth = findSmoothCells(image);
     EstimatedImage estimated{.name = loaded.name, .content = hashContent(image)};
-    for (const Candidate& candidate : request.candidates)
+    for (Candidate candidate : request.candidates)
     {
+        candidate.has_smooth_areas = !smooth.empty();
         // a budget is spent on compressed formats, however large it is
         if (candidate.traits->family == TexelFamily::plain && request.candidates.size() > 1)
             continue;
