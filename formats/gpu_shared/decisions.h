@@ -102,12 +102,9 @@ HEARTH_FUNCTION EyeBox toEyeBox(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) i
     return box;
 }
 
-/// Return the distance from the eye to the nearest point of the box along the world axes around a box of an
-/// instance: no point of the box is nearer.
-HEARTH_FUNCTION float boxDistance(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance, Float3 box_min,
-                                  Float3 box_max)
+/// Return the distance from the eye to the nearest point of a box along the world axes, or less.
+HEARTH_FUNCTION float eyeBoxDistance(HEARTH_IN(EyeBox) box)
 {
-    EyeBox box = toEyeBox(view, instance, box_min, box_max);
     HEARTH_PRECISE Float3 gap =
         Float3(max(abs(box.center.x) - box.half_size.x, 0.0f), max(abs(box.center.y) - box.half_size.y, 0.0f),
                max(abs(box.center.z) - box.half_size.z, 0.0f));
@@ -353,27 +350,128 @@ HEARTH_FUNCTION uint groupPriority(HEARTH_IN(FrameView) view, HEARTH_IN(Instance
 }
 
 /// Unit of texelRequest: 2^-kTexelRequestBits octaves.
-HEARTH_CONSTANT int kTexelRequestBits = 23;
+HEARTH_CONSTANT int kTexelRequestBits = 20;
 
 /// Octaves that texelRequest adds, so that it is positive.
 HEARTH_CONSTANT int kTexelRequestOctaves = 64;
 
+/// Octaves that texelRequest may be too small by: six logarithms, each off by at most 0.0081.
+HEARTH_CONSTANT float kTexelRequestError = 0.05f;
+
+/// Return log2(x) of a float >= 0 in units of 2^-kTexelRequestBits, off by at most 0.0081 octaves. The bits of
+/// a float are its logarithm drawn as straight lines between powers of two; a parabola bends them. Integers
+/// alone, because the last bits of log2 differ between devices. 0 is as 2^-127.
+HEARTH_FUNCTION int fixedLog2(float x)
+{
+    uint bits = floatBits(x);
+    uint along = bits >> 8 & 32767u; // from one power of two to the next
+    uint bend = (along * (32768u - along) >> 15) * 11272u >> 15;
+    return int((bits >> 3) + (bend << 5)) - (127 << kTexelRequestBits);
+}
+
+/// Place of a cluster as its textures are asked for, in metres. Of the points of the cluster:
+struct TexelReach
+{
+    float distance; ///< lower bound of the distance from the eye
+    float farthest; ///< upper bound of the distance from the eye
+    float depth;    ///< lower bound of the distance along the view's axis
+};
+
+/// Find the reach of a box of an instance, for any affine matrix. See TexelReach.
+HEARTH_FUNCTION TexelReach boxReach(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance, Float3 box_min,
+                                    Float3 box_max)
+{
+    EyeBox box = toEyeBox(view, instance, box_min, box_max);
+    HEARTH_PRECISE Float3 half_size = (box_max - box_min) * 0.5f;
+    Float3 axis = row3(view.clip_w);
+    // the axis in object space, so that a turned box is as deep as it is
+    HEARTH_PRECISE Float3 object_axis =
+        (row3(instance.world_from_object_x) * axis.x + row3(instance.world_from_object_y) * axis.y) +
+        row3(instance.world_from_object_z) * axis.z;
+    Float3 corner = abs3(box.center) + box.half_size;
+    HEARTH_PRECISE float slack = sum3(corner) * (4.0f * kRoundingSlack);
+    TexelReach reach;
+    HEARTH_PRECISE float depth = (dot3(axis, box.center) - dot3(abs3(object_axis), half_size)) - slack;
+    HEARTH_PRECISE float farthest = sqrt(dot3(corner, corner)) + slack;
+    reach.depth = depth;
+    reach.farthest = farthest;
+    reach.distance = eyeBoxDistance(box);
+    return reach;
+}
+
+/// Return a lower bound of the distance from the eye to a cluster's box in object space, so that a long wall
+/// that is turned against the axes of the world is as far away as it looks.
+///
+/// With the columns a, b, c of the matrix, and w from the eye to a point of the box in object space,
+///     |A w|^2 >= (a.a - |a.b| - |a.c|) w_x^2 + (b.b - |a.b| - |b.c|) w_y^2 + (c.c - |a.c| - |b.c|) w_z^2,
+/// since 2 |w_x w_y| <= w_x^2 + w_y^2. If no factor is negative, the right side is the least for the point
+/// nearest in object space. It is exact for rotations, scales along the axes of the object and reflections;
+/// 0 for matrices that are sheared too much.
+HEARTH_FUNCTION float objectBoxDistance(HEARTH_IN(Instance) instance, HEARTH_IN(InstanceState) state,
+                                        Float3 box_min, Float3 box_max)
+{
+    Float4 x = instance.world_from_object_x;
+    Float4 y = instance.world_from_object_y;
+    Float4 z = instance.world_from_object_z;
+    Float3 a = Float3(x.x, y.x, z.x);
+    Float3 b = Float3(x.y, y.y, z.y);
+    Float3 c = Float3(x.z, y.z, z.z);
+    float ab = abs(dot3(a, b));
+    float ac = abs(dot3(a, c));
+    float bc = abs(dot3(b, c));
+    HEARTH_PRECISE Float3 factor =
+        Float3((dot3(a, a) - ab) - ac, (dot3(b, b) - ab) - bc, (dot3(c, c) - ac) - bc);
+    if (state.cone_valid == 0u || min(min(factor.x, factor.y), factor.z) < 0.0f)
+        return 0.0f;
+    HEARTH_PRECISE Float3 center = (box_min + box_max) * 0.5f;
+    HEARTH_PRECISE Float3 half_size = (box_max - box_min) * 0.5f;
+    // the box grows by the roundings of both its corners and the eye
+    HEARTH_PRECISE float slack = state.eye_slack + sum3(abs3(center) + half_size) * kRoundingSlack;
+    HEARTH_PRECISE Float3 beyond = abs3(center - state.eye_object) - half_size;
+    Float3 gap =
+        Float3(max(beyond.x - slack, 0.0f), max(beyond.y - slack, 0.0f), max(beyond.z - slack, 0.0f));
+    HEARTH_PRECISE Float3 squares = gap * gap;
+    HEARTH_PRECISE float distance = sqrt(dot3(factor, squares)) * (1.0f - 8.0f * kRoundingSlack);
+    return distance;
+}
+
+/// Find the reach of a cluster of a rigid instance.
+HEARTH_FUNCTION TexelReach clusterReach(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
+                                        HEARTH_IN(InstanceState) state, HEARTH_IN(Cluster) cluster)
+{
+    Float3 box_min = clusterBoxMin(cluster, state.grid_step);
+    Float3 box_max = clusterBoxMax(cluster, state.grid_step);
+    TexelReach reach = boxReach(view, instance, box_min, box_max);
+    reach.distance = max(reach.distance, objectBoxDistance(instance, state, box_min, box_max));
+    return reach;
+}
+
 /// Return the fineness that a view wants of the textures of a cluster: log2 of the pixels that a UV unit
-/// covers where the cluster is nearest. Bits of floats take the place of logarithms, whose last bits differ
-/// between devices: they are too small by up to 0.0861 octaves, so the result is off by so much either way.
+/// covers at most, in units of 2^-kTexelRequestBits, with kTexelRequestOctaves added. It may be too small by
+/// kTexelRequestError.
+///
+/// A metre that faces the eye at distance d, at an angle a off the view's axis, covers lod_scale / (d cos^2 a)
+/// pixels away from the axis, or lod_scale / (depth cos a). The cosine is at least depth / d, and at least
+/// that of the image's corners.
 ///
 /// density_code  ClusterRecord::uv_density
-/// distance      of the nearest point, metres
-/// returns       0: the cluster has no UVs
+/// returns       0: the cluster has no UVs, or no material reads them
 HEARTH_FUNCTION uint texelRequest(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance, uint density_code,
-                                  float distance)
+                                  HEARTH_IN(TexelReach) reach)
 {
     if (density_code == 0u)
         return 0u;
     HEARTH_PRECISE float pixels_m = instance.scale_max * view.lod_scale;
-    int octaves = int(floatBits(pixels_m)) - int(floatBits(max(distance, view.z_near)));
+    int distance = fixedLog2(max(reach.distance, view.z_near));
+    int depth = fixedLog2(max(reach.depth, view.z_near));
+    int own_cosine = depth - fixedLog2(max(reach.farthest, view.z_near));
+    int corner_cosine = fixedLog2(view.corner_cosine);
+    int cosine = own_cosine > corner_cosine ? own_cosine : corner_cosine;
+    int by_depth = depth + cosine;
+    int by_distance = distance + 2 * cosine;
+    int nearness = by_depth > by_distance ? by_depth : by_distance;
     int density = (int(density_code) - 128) << (kTexelRequestBits - 3);
-    int request = octaves - density + (kTexelRequestOctaves << kTexelRequestBits);
+    int request = fixedLog2(pixels_m) - nearness - density + (kTexelRequestOctaves << kTexelRequestBits);
     return request > 0 ? uint(request) : 1u;
 }
 

@@ -266,11 +266,12 @@ HEARTH_FUNCTION bool deformedInFrustum(HEARTH_IN(FrameView) view, HEARTH_IN(Inst
            !boxOutsideFrustum(viewFromOrigin(view, instance), box.joint_instance, box.box_min, box.box_max);
 }
 
-/// Return the distance from the eye that no point of the cluster is nearer than.
-HEARTH_FUNCTION float deformedDistance(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
-                                       HEARTH_IN(TransformedBox) box)
+/// Find the reach of a deformed cluster, by the box that the frustum test uses. Clusters of deformed meshes
+/// are small, so the box along the axes of the world is little larger.
+HEARTH_FUNCTION TexelReach deformedReach(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
+                                         HEARTH_IN(TransformedBox) box)
 {
-    return boxDistance(viewFromOrigin(view, instance), box.joint_instance, box.box_min, box.box_max);
+    return boxReach(viewFromOrigin(view, instance), box.joint_instance, box.box_min, box.box_max);
 }
 
 /// True if every triangle faces away, in a pose of the clips.

@@ -207,8 +207,8 @@ struct FrameView
     uint instance_count;
     float width; ///< pixels
     float height;
-    uint reserved0;
-    uint reserved1;
+    float corner_cosine; ///< of the angle between the view's axis and a corner of the image, or less
+    uint reserved;
     Float4 lod_curve[8]; ///< from distance x on the factor goes from y to z, with slope w per metre
 };
 

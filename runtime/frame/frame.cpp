@@ -54,6 +54,8 @@ FrameView makeFrameView(const Camera& camera, uint32_t width, uint32_t height, f
     view.eye = camera.position;
     view.z_near = camera.z_near;
     view.lod_scale = 0.5f * static_cast<float>(height) * focal;
+    constexpr float kPixelBeyond = 0.999f; // images may be drawn moved by a part of a pixel
+    view.corner_cosine = kPixelBeyond / std::sqrt(1 + (1 + aspect * aspect) / (focal * focal));
     // an error of exactly 0 never exceeds a threshold of 0: only a negative threshold refines planes to their
     // source triangles
     view.threshold = error_pixels > 0 ? error_pixels : -1.0f;

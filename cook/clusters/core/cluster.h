@@ -37,6 +37,7 @@ struct PreparedMesh
     const MeshMotion* motion = nullptr; ///< motion of a deformed mesh; null: nothing moves it
     mesh::InfluenceLoss influence_loss;
     std::optional<double> influence_displacement; ///< as in BuildCounts
+    std::vector<uint8_t> read_uv_sets;            ///< as in Config
     std::vector<float> morph_steps;               ///< step of each morph target's deltas; a power of two
 
     size_t triangleCount() const { return corners.triangleCount(); }

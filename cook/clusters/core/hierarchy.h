@@ -59,6 +59,10 @@ struct Config
 
     /// Give vertices with normals a visibility, open until it is baked.
     bool visibility = false;
+
+    /// UV sets that textures of each material read: bit k for set k. By these the density of UVs on clusters
+    /// is measured; all sets count for materials beyond the list.
+    std::vector<uint8_t> read_uv_sets;
 };
 
 /// Counters for the report.

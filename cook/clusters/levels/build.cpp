@@ -68,6 +68,7 @@ Hierarchy buildHierarchy(mesh::SourceMesh source, std::span<const mesh::SourceMe
                 std::vector<uint32_t>(authored.size(), kInvalidIndex)};
     if (config.visibility && (build.mesh.attributes & kVertexNormal))
         build.mesh.attributes |= kVertexVisibility;
+    build.mesh.read_uv_sets = config.read_uv_sets;
     hierarchy.counts.influence_loss = build.mesh.influence_loss;
     hierarchy.counts.influence_displacement = build.mesh.influence_displacement;
     HEARTH_ASSERT(joined.levels.size() <= authored.size());

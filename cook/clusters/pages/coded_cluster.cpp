@@ -306,16 +306,18 @@ private:
     std::vector<uint32_t> deltas_;  ///< for each vertex and each of these targets
 };
 
-/// Return the code of the cluster's density: of two UV sets that of the one with fewer UV units a metre,
-/// which wants finer mips. 0 without UVs or area.
-uint8_t findUvDensity(const PreparedMesh& mesh, std::span<const VertexId> vertices,
+/// Return the code of the cluster's density: of the UV sets that its material reads that of the one with the
+/// fewest UV units a metre, which wants finer mips. 0 without such UVs or area.
+uint8_t findUvDensity(const PreparedMesh& mesh, uint32_t material, std::span<const VertexId> vertices,
                       std::span<const uint8_t> indices, std::span<const Float3> places)
 {
+    constexpr uint32_t kAllSets = (1u << kUvSets) - 1;
+    const uint32_t sets = material < mesh.read_uv_sets.size() ? mesh.read_uv_sets[material] : kAllSets;
     uint8_t code = 0;
     std::vector<Float2> uvs(indices.size());
     for (uint32_t set = 0; set < kUvSets; ++set)
     {
-        if ((mesh.attributes & kVertexUv0 << set) == 0)
+        if ((mesh.attributes & kVertexUv0 << set) == 0 || (sets >> set & 1) == 0)
             continue;
         for (size_t i = 0; i < indices.size(); ++i)
             uvs[i] = mesh.vertices.uvs[set][toIndex(vertices[indices[i]])];
@@ -362,7 +364,7 @@ CodedCluster codeCluster(const PreparedMesh& mesh, const ClusterStore& store, co
     record.vertex_count =
         static_cast<uint16_t>(vertex_words / vertexWords(clusterVertexLayout(record, layout)));
     record.triangle_count = static_cast<uint8_t>(shape.triangle_count);
-    record.uv_density = findUvDensity(mesh, vertices, indices, places);
+    record.uv_density = findUvDensity(mesh, record.material, vertices, indices, places);
     HEARTH_ASSERT(record.vertex_count > 0 && record.vertex_count <= vertices.size());
     HEARTH_ASSERT(record.triangle_count == shape.triangle_count);
     return cluster;

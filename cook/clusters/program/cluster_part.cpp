@@ -5,6 +5,7 @@
 #include "cook/mesh/free_memory.h"
 #include "formats/base/assert.h"
 #include "formats/pack/pack_view.h"
+#include "formats/records/material_layers.h"
 #include "formats/records/provenance.h"
 
 #include <chrono>
@@ -127,6 +128,25 @@ Result<std::vector<std::string>> materialNames(const ContainerReader& part)
 namespace
 {
 
+/// Return the UV sets that textures of each material read, as in Config.
+std::vector<uint8_t> findReadUvSets(const PackView& view)
+{
+    std::vector<uint8_t> sets(view.materials().size(), 0);
+    const auto add = [&](uint32_t material, const TextureRef& texture)
+    {
+        if (texture.image != kInvalidIndex)
+            sets[material] = static_cast<uint8_t>(sets[material] | 1u << (texture.uv_set & 3u));
+    };
+    for (uint32_t material = 0; material < sets.size(); ++material)
+        for (const auto field : kMaterialTextureFields)
+            add(material, view.materials()[material].*field);
+    for (const MaterialLayersRecord& layers : view.materialLayers())
+        if (layers.material < sets.size())
+            for (const auto field : kLayerTextures)
+                add(layers.material, layers.*field);
+    return sets;
+}
+
 /// Authored LOD: its mesh, and its number and name for users.
 struct AuthoredLodMesh
 {
@@ -179,7 +199,8 @@ void appendAuthoredLevels(Tables& tables, uint32_t mesh, std::span<const uint32_
 
 /// Build a mesh. A mesh that is an authored LOD of another is part of that one, and has no hierarchy itself.
 Result<BuiltMesh> buildMesh(const ContainerReader& part, const LodLists& lods, const PartMotion& motion,
-                            uint32_t index, const MeshConfigurer& configure)
+                            std::span<const uint8_t> read_uv_sets, uint32_t index,
+                            const MeshConfigurer& configure)
 {
     const auto start = std::chrono::steady_clock::now();
     HEARTH_ASSIGN_OR_RETURN(mesh::SourceMesh source, mesh::readSourceMesh(part, index));
@@ -187,6 +208,7 @@ Result<BuiltMesh> buildMesh(const ContainerReader& part, const LodLists& lods, c
     built.name = source.name;
     if (configure)
         built.config = configure(built.name);
+    built.config.read_uv_sets.assign(read_uv_sets.begin(), read_uv_sets.end());
     if (lods.is_lod[index] != 0)
         return built;
     std::vector<mesh::SourceMesh> authored;
@@ -221,13 +243,14 @@ uint32_t endOfBatch(const ContainerReader& part, uint32_t first, uint32_t mesh_c
 
 /// Build the meshes of a batch; each has a result or an error.
 std::vector<Result<BuiltMesh>> buildBatch(const ContainerReader& part, const LodLists& lods,
-                                          const PartMotion& motion, Range meshes,
-                                          const MeshConfigurer& configure)
+                                          const PartMotion& motion, std::span<const uint8_t> read_uv_sets,
+                                          Range meshes, const MeshConfigurer& configure)
 {
     std::vector<Result<BuiltMesh>> batch(meshes.count, BuiltMesh{});
     tbb::parallel_for(uint32_t{0}, meshes.count,
-                      [&](uint32_t i)
-                      { batch[i] = buildMesh(part, lods, motion, meshes.first + i, configure); });
+                      [&](uint32_t i) {
+                          batch[i] = buildMesh(part, lods, motion, read_uv_sets, meshes.first + i, configure);
+                      });
     return batch;
 }
 
@@ -241,12 +264,15 @@ Status writeClustersPart(const ContainerReader& part, const std::string& output_
     const uint32_t mesh_count = meshCount(part);
     HEARTH_ASSIGN_OR_RETURN(const LodLists lods, readLodLists(part, mesh_count));
     HEARTH_ASSIGN_OR_RETURN(const PartMotion motion, PartMotion::read(part));
+    HEARTH_ASSIGN_OR_RETURN(const PackView view, PackView::read(part));
+    const std::vector<uint8_t> read_uv_sets = findReadUvSets(view);
     Tables tables;
     HEARTH_TRY(writer.beginChunk({.type = kChunkPages, .version = chunkVersion(kChunkPages)}, 1));
     for (uint32_t first = 0; first < mesh_count;)
     {
         const uint32_t end = endOfBatch(part, first, mesh_count);
-        for (Result<BuiltMesh>& result : buildBatch(part, lods, motion, {first, end - first}, configure))
+        for (Result<BuiltMesh>& result :
+             buildBatch(part, lods, motion, read_uv_sets, {first, end - first}, configure))
         {
             HEARTH_ASSIGN_OR_RETURN(BuiltMesh built, std::move(result));
             if (observe)

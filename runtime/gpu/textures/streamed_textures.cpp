@@ -56,14 +56,12 @@ VkExtent3D levelExtent(const Image& image, uint32_t level)
     return {std::max(1u, image.extent.width >> level), std::max(1u, image.extent.height >> level), 1};
 }
 
-/// Convert a word of shared::texelRequest to log2 of the pixels of a UV unit, at least as many as it means:
-/// its logarithm is off by so much at most.
+/// Convert a word of shared::texelRequest to log2 of the pixels of a UV unit, at least as many as there are.
 float pixelsFromRequest(uint32_t request)
 {
-    constexpr float kLogarithmError = 0.0861f;
     constexpr auto kOctave = static_cast<float>(1 << shared::kTexelRequestBits);
     return static_cast<float>(request) / kOctave - static_cast<float>(shared::kTexelRequestOctaves) +
-           kLogarithmError;
+           shared::kTexelRequestError;
 }
 
 /// Return the bytes of a slot of staging memory: those of the largest piece on the device.

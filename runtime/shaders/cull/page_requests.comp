@@ -12,9 +12,7 @@ bool inFrustum(uint instance, uint cluster)
     return clusterInFrustum(view, instances[instance], states[instance], clusters[cluster]);
 }
 
-float nearestDistance(uint instance, uint cluster)
+TexelReach findReach(uint instance, uint cluster)
 {
-    float step = states[instance].grid_step;
-    return boxDistance(view, instances[instance], clusterBoxMin(clusters[cluster], step),
-                       clusterBoxMax(clusters[cluster], step));
+    return clusterReach(view, instances[instance], states[instance], clusters[cluster]);
 }

@@ -18,10 +18,10 @@ layout(set = kSetTables, binding = kTablePageRequests, std430) buffer Requests {
 layout(push_constant) uniform Push { PageRequestPush push; };
 
 // transformedGroup: the group with the bounds that the cut test uses. inFrustum: true if the cluster passes
-// the frustum test. nearestDistance: from the eye to the cluster, metres.
+// the frustum test. findReach: of the cluster.
 Group transformedGroup(uint instance, uint group);
 bool inFrustum(uint instance, uint cluster);
-float nearestDistance(uint instance, uint cluster);
+TexelReach findReach(uint instance, uint cluster);
 
 // Request the set of pages of a group. The first page of a set represents the whole set.
 void requestPage(uint group, uint request)
@@ -38,7 +38,7 @@ void requestTexels(uint instance, uint cluster)
     uint row = material == kNoGroup ? push.default_material : material;
     if (code != 0u)
         atomicMax(requests[push.first_material + row],
-                  texelRequest(view, instances[instance], code, nearestDistance(instance, cluster)));
+                  texelRequest(view, instances[instance], code, findReach(instance, cluster)));
 }
 
 void main()

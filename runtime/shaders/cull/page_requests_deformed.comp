@@ -18,9 +18,9 @@ bool inFrustum(uint instance, uint cluster)
                              boxInPose(instances[instance], pose, loadDeformedCluster(pose, cluster)));
 }
 
-float nearestDistance(uint instance, uint cluster)
+TexelReach findReach(uint instance, uint cluster)
 {
     Pose pose = loadPose(readPoseRow(instance));
-    return deformedDistance(view, instances[instance],
-                            boxInPose(instances[instance], pose, loadDeformedCluster(pose, cluster)));
+    return deformedReach(view, instances[instance],
+                         boxInPose(instances[instance], pose, loadDeformedCluster(pose, cluster)));
 }

@@ -123,6 +123,23 @@ TEST(UvDensity, clustersHaveTheirs)
     for (const Float2& uv : twice.uvs[0])
         twice.uvs[1].push_back({uv.x / 2, uv.y / 2});
     EXPECT_EQ(buildHierarchy(twice).clusters.at(0).uv_density, 128 - 24) << "the set with fewer units";
+
+    // a second set of zeros, which wants the finest mips of all, counts only where a texture reads it
+    for (Float2& uv : twice.uvs[1])
+        uv = {};
+    for (uint32_t& material : twice.triangle_materials)
+        material = 1;
+    const auto density = [&](std::vector<uint8_t> sets)
+    {
+        Config config;
+        config.read_uv_sets = std::move(sets);
+        return buildHierarchy(twice, config).clusters.at(0).uv_density;
+    };
+    EXPECT_EQ(density({}), 1) << "nothing is known of the material";
+    EXPECT_EQ(density({0b10}), 1) << "it is not this material";
+    EXPECT_EQ(density({0b10, 0b01}), 128 - 16);
+    EXPECT_EQ(density({0b01, 0b11}), 1);
+    EXPECT_EQ(density({0b01, 0}), 0) << "it has no textures";
 }
 
 } // namespace

@@ -377,12 +377,10 @@ std::vector<uint32_t> makeRequestTwin(const formats::PackView& pack, const gpu::
             uint32_t& request = requests[groups[group - groups[group].set_offset].page];
             request = std::max(request, groupPriority(view, instance, groupInPose(groups[group], pose)));
         };
-        const auto distance = [&](uint32_t c)
+        const auto reach = [&](uint32_t c)
         {
-            return deformed
-                       ? deformedDistance(view, instance, poses.box(instance, pose, poses.cluster(pose, c)))
-                       : boxDistance(view, instance, clusterBoxMin(clusters[c], state.grid_step),
-                                     clusterBoxMax(clusters[c], state.grid_step));
+            return deformed ? deformedReach(view, instance, poses.box(instance, pose, poses.cluster(pose, c)))
+                            : clusterReach(view, instance, state, clusters[c]);
         };
         const auto refines = [&](uint32_t group)
         {
@@ -402,8 +400,7 @@ std::vector<uint32_t> makeRequestTwin(const formats::PackView& pack, const gpu::
                 continue;
             const uint32_t row = clusters[c].material == kNoGroup ? materials : clusters[c].material;
             uint32_t& request = requests[pages + row];
-            request =
-                std::max(request, texelRequest(view, instance, uvDensityCode(clusters[c]), distance(c)));
+            request = std::max(request, texelRequest(view, instance, uvDensityCode(clusters[c]), reach(c)));
         }
     }
     return requests;
