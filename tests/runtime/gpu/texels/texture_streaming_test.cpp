@@ -5,7 +5,9 @@
 #include "tests/support/shapes.h"
 #include "tests/support/test_scene.h"
 
+#include <array>
 #include <bit>
+#include <cmath>
 #include <deque>
 #include <random>
 
@@ -38,9 +40,7 @@ protected:
         GpuTest::SetUp();
         if (IsSkipped())
             return;
-        for (uint32_t row = 0; row < kRows; ++row)
-            for (uint32_t column = 0; column < kColumns; ++column)
-                addQuad(row, column);
+        addScene();
         pack_.emplace(test_.build());
         const auto sizes = gpu::measureTextures(renderer().device(), *pack_,
                                                 std::vector<bool>(pack_->images().size(), true), true);
@@ -50,6 +50,13 @@ protected:
                 all_bytes_ += bytes;
         for (const PageRecord& page : pack_->pages())
             all_bytes_ += 2 * page.size;
+    }
+
+    virtual void addScene()
+    {
+        for (uint32_t row = 0; row < kRows; ++row)
+            for (uint32_t column = 0; column < kColumns; ++column)
+                addQuad(row, column);
     }
 
     void addQuad(uint32_t row, uint32_t column)
@@ -211,6 +218,122 @@ TEST_F(TextureStreaming, aMipThatCannotBeReadLeavesTheTextureBlurred)
         frame(kCameras[1]);
     EXPECT_LT(settle(kCameras[1]), 600u);
     EXPECT_EQ(frame(kCameras[1]).color, draw(*upload(*pack_), kCameras[1], kOptions).color);
+}
+
+/// Rectangles whose textures show the number of their mip as a grey, the finer the lighter. Behind them are
+/// rectangles with each grey alone, by which pictures are read.
+class TextureSharpness : public TextureStreaming
+{
+protected:
+    static constexpr uint32_t kShown = 7, kGreys = 10;
+
+    static uint32_t grey(uint32_t mip) { return 0xFF000000u | (0x00010101u * (250 - 20 * mip)); }
+
+    void add(mesh::SourceMesh mesh, const Affine3& place, TextureRef texture)
+    {
+        MaterialRecord material = plainMaterial();
+        material.flags = kMaterialUnlit | kMaterialDoubleSided;
+        material.base_color = {1, 1, 1, 1};
+        material.base_color_texture = texture;
+        test_.addInstance(test_.addMesh(withMaterial(std::move(mesh), test_.addMaterial(material))), place);
+    }
+
+    void addShown(Float3 middle, float turn, bool lies, float width, float height, float repeats, float scale)
+    {
+        std::vector<uint32_t> texels;
+        for (uint32_t mip = 0; mip < 10; ++mip)
+            texels.resize(texels.size() + (size_t{512} >> mip) * (512 >> mip), grey(mip));
+        TextureRef texture = makeTextureRef(test_.addImage(TexelFormat::rgba8_srgb, 512, 512, texels));
+        texture.uv_transform[0] = texture.uv_transform[4] = scale;
+        mesh::SourceMesh quad = makeQuad(width, height);
+        for (Float2& uv : quad.uvs[0])
+            uv = {uv.x * repeats, uv.y * repeats};
+        Affine3 place = translated(middle);
+        const float c = std::cos(turn), s = std::sin(turn);
+        if (lies) // y of the rectangle goes to -z
+            place.m[1][1] = 0, place.m[1][2] = 1, place.m[2][1] = -1, place.m[2][2] = 0;
+        else
+            place.m[0][0] = c, place.m[0][2] = s, place.m[2][0] = -s, place.m[2][2] = c;
+        add(quad, place, texture);
+    }
+
+    void addScene() override
+    {
+        for (uint32_t i = 0; i < 4; ++i) // a wall turned against the axes
+            addShown({1.42f * static_cast<float>(i), 1, -1.42f * static_cast<float>(i)}, 0.7854f, false, 2, 2,
+                     1, 1);
+        addShown({0, 0, 0}, 0, true, 12, 12, 6, 1);  // floor
+        addShown({-5, 1, -4}, 0, false, 3, 2, 2, 3); // transform of UVs
+        addShown({-5, 1, 2}, 1.2f, false, 1, 3, 1, 0.25f);
+        for (uint32_t mip = 0; mip < kGreys; ++mip)
+            add(makeQuad(1, 1), translated({3.0f * static_cast<float>(mip), -500, 0}),
+                makeTextureRef(test_.addImage(TexelFormat::rgba8_srgb, 1, 1, {grey(mip)})));
+    }
+
+    /// Return how light each mip is in pictures.
+    std::vector<int> readGreys(gpu::Scene& scene)
+    {
+        std::vector<int> greys;
+        for (uint32_t mip = 0; mip < kGreys; ++mip)
+        {
+            const float x = 3.0f * static_cast<float>(mip);
+            const Image image = draw(scene, {.position = {x, -500, 0.25f}, .target = {x, -500, 0}},
+                                     {.width = 16, .height = 16});
+            greys.push_back(channel(image.at(8, 8), 0));
+        }
+        return greys;
+    }
+};
+
+TEST_F(TextureSharpness, settledPixelsAreNoBlurrierThanTheSamplerWants)
+{
+    const shared::Camera cameras[] = {
+        {.position = {0, 1.6f, 9}, .target = {0, 1, 0}},
+        {.position = {0, 1.6f, 3}, .target = {0.5f, 1, 0}, .y_fov_rad = 1.9f}, // wide
+        {.position = {4, 1.5f, 1}, .target = {2.1f, 1, -2.1f}},                // before the wall
+        {.position = {-1.5f, 1, 1.9f}, .target = {4, 1, -4}},                  // along it
+        {.position = {-5.5f, 0.5f, 5.5f}, .target = {0, 0.2f, 0}},             // low over the floor
+        {.position = {-3, 1.2f, 0}, .target = {-6, 0.8f, -3}, .y_fov_rad = 1.2f},
+    };
+    const auto whole = upload(*pack_);
+    const std::vector<int> greys = readGreys(*whole);
+    ASSERT_TRUE(std::is_sorted(greys.rbegin(), greys.rend()));
+    const auto sizes =
+        gpu::measureTextures(renderer().device(), *pack_, std::vector<bool>(pack_->images().size(), true));
+    ASSERT_TRUE(sizes.ok());
+    size_t pixels = 0, blurred = 0;
+    uint64_t held = 0, needed = 0;
+    for (const shared::Camera& camera : cameras)
+    {
+        stream(2 * all_bytes_);
+        EXPECT_LT(settle(camera), 600u);
+        const Image image = frame(camera), expected = draw(*whole, camera, kOptions);
+        held += streamed_->textures->statistics().bytes_on_device;
+        std::array<int, kShown> lightest{};
+        const auto seen = expected.seen();
+        for (size_t i = 0; i < seen.size(); ++i)
+            if (const uint32_t shown = seen[i][0]; shown < kShown)
+            {
+                const int wanted = channel(expected.color[i], 0);
+                ++pixels;
+                blurred += channel(image.color[i], 0) < wanted - 1 ? 1u : 0u;
+                lightest[shown] = std::max(lightest[shown], wanted);
+            }
+        for (uint32_t shown = 0; shown < kShown; ++shown)
+        {
+            const std::vector<uint64_t>& bytes = (*sizes)[shown];
+            size_t mip = bytes.size() - 1;
+            while (mip > 0 && greys[mip] < lightest[shown])
+                --mip;
+            needed += bytes[mip];
+        }
+    }
+    EXPECT_GT(pixels, std::size(cameras) * 5000);
+    EXPECT_LE(100 * blurred, pixels);
+    const double beyond = static_cast<double>(held) / static_cast<double>(needed);
+    RecordProperty("blurred_pixels", std::to_string(blurred));
+    RecordProperty("bytes_held_a_byte_needed", std::to_string(beyond));
+    EXPECT_LT(beyond, 8);
 }
 
 } // namespace
