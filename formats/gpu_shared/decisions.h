@@ -358,9 +358,9 @@ HEARTH_CONSTANT int kTexelRequestOctaves = 64;
 /// Octaves that texelRequest may be too small by: six logarithms, each off by at most 0.0081.
 HEARTH_CONSTANT float kTexelRequestError = 0.05f;
 
-/// Return log2(x) of a float >= 0 in units of 2^-kTexelRequestBits, off by at most 0.0081 octaves. The bits of
-/// a float are its logarithm drawn as straight lines between powers of two; a parabola bends them. Integers
-/// alone, because the last bits of log2 differ between devices. 0 is as 2^-127.
+/// Return log2(x) of a float >= 0 in units of 2^-kTexelRequestBits, off by at most 0.0081 octaves. The bits
+/// of a float are its logarithm drawn as straight lines between powers of two; a parabola bends them.
+/// Integers alone, because the last bits of log2 differ between devices. 0 is as 2^-127.
 HEARTH_FUNCTION int fixedLog2(float x)
 {
     uint bits = floatBits(x);
@@ -450,9 +450,9 @@ HEARTH_FUNCTION TexelReach clusterReach(HEARTH_IN(FrameView) view, HEARTH_IN(Ins
 /// covers at most, in units of 2^-kTexelRequestBits, with kTexelRequestOctaves added. It may be too small by
 /// kTexelRequestError.
 ///
-/// A metre that faces the eye at distance d, at an angle a off the view's axis, covers lod_scale / (d cos^2 a)
-/// pixels away from the axis, or lod_scale / (depth cos a). The cosine is at least depth / d, and at least
-/// that of the image's corners.
+/// A metre that faces the eye at distance d, at an angle a off the view's axis, covers
+/// lod_scale / (d cos^2 a) pixels away from the axis, or lod_scale / (depth cos a). The cosine is at least
+/// depth / d, and at least that of the image's corners.
 ///
 /// density_code  ClusterRecord::uv_density
 /// returns       0: the cluster has no UVs, or no material reads them
