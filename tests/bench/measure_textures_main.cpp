@@ -214,11 +214,10 @@ int judge(const Measured& result)
         sum.fixed_worst = std::max(sum.fixed_worst, sums.fixed_worst);
     }
     const auto ratio = [](uint64_t a, uint64_t b) { return static_cast<double>(a) / static_cast<double>(b); };
-    // 6x6 has a worse worst case: this is printed beside
-    fmt::print("bytes / those of 6x6, colours and data: {:.3f}\n", ratio(others.bytes, others.fixed_bytes));
     const TexelFormatTraits& common = texelTraits(result.common.formats[result.common.chosen]);
     fmt::print("one footprint that holds all targets: {}x{}, {} bytes\n", common.block_width,
                common.block_height, result.common.countBytes());
+    judgement.record("bytes / those of 6x6, colours and data", ratio(others.bytes, others.fixed_bytes));
     judgement.record("bytes / those of one footprint that holds the targets, colours and data",
                      ratio(others.bytes, result.common.countBytes()));
     judgement.record("worst error / that of 6x6, colours and data", others.worst / others.fixed_worst);

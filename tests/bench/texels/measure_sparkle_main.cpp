@@ -26,10 +26,6 @@ constexpr uint32_t kWidth = 320;
 constexpr uint32_t kHeight = 180;
 constexpr uint32_t kPointsPerSide = 16;
 
-// Slopes whose energy has an aim. Steeper bumps, seen at a low angle, would hide each other, which shading by
-// a normal map leaves out: their energy depends on the view in a way that no roughness can follow.
-constexpr float kGentleSlope = 0.1f;
-
 const std::vector<std::string> kPhones{};
 const std::vector<std::string> kUnchanged{"--set", "textures.specular_aa=false"};
 
@@ -96,7 +92,7 @@ Result<int> measure(const std::string& work)
                "no specular_aa");
     judgement.record("energy lost or gained, flat", std::abs(flat));
     for (const float elevation : {20.0f, 45.0f})
-        for (const auto& [slope, roughness] : {std::pair(kGentleSlope, 0.2f), std::pair(0.25f, 0.4f)})
+        for (const auto& [slope, roughness] : {std::pair(0.1f, 0.2f), std::pair(0.25f, 0.4f)})
         {
             const bench::BumpyFloor floor{.slope = slope, .roughness = roughness, .elevation_deg = elevation};
             HEARTH_ASSIGN_OR_RETURN(const double phones, measureFloor(work, floor, kPhones));
@@ -104,8 +100,7 @@ Result<int> measure(const std::string& work)
             fmt::print("{:>9} {:>6} {:>10} {:>+10.1f} % {:>+14.1f} %\n", elevation, slope, roughness,
                        100 * phones, 100 * unchanged);
             std::fflush(stdout);
-            if (slope == kGentleSlope)
-                judgement.record("energy lost or gained, slopes of 0.1", std::abs(phones));
+            judgement.record("energy lost or gained, bumpy", std::abs(phones));
         }
     return judgement.finish();
 }
