@@ -129,7 +129,7 @@ std::vector<SharedStruct> frameStructs()
 {
     return {
         HEARTH_STRUCT(FrameView, clip_x, clip_y, clip_w, planes, eye, z_near, lod_scale, threshold, flags,
-                      instance_count, width, height, reserved0, reserved1, lod_curve),
+                      instance_count, width, height, corner_cosine, reserved, lod_curve),
         HEARTH_STRUCT(OcclusionView, clip_x, clip_y, clip_w, eye, z_near, width, height, level_count,
                       reserved),
         HEARTH_STRUCT(Material, base_color, emissive, alpha_cutoff, metallic, roughness, normal_scale,

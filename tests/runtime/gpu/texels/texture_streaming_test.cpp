@@ -298,8 +298,8 @@ TEST_F(TextureSharpness, settledPixelsAreNoBlurrierThanTheSamplerWants)
     const auto whole = upload(*pack_);
     const std::vector<int> greys = readGreys(*whole);
     ASSERT_TRUE(std::is_sorted(greys.rbegin(), greys.rend()));
-    const auto sizes =
-        gpu::measureTextures(renderer().device(), *pack_, std::vector<bool>(pack_->images().size(), true));
+    const auto sizes = gpu::measureTextures(renderer().device(), *pack_,
+                                            std::vector<bool>(pack_->images().size(), true), true);
     ASSERT_TRUE(sizes.ok());
     size_t pixels = 0, blurred = 0;
     uint64_t held = 0, needed = 0;
