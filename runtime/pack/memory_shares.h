@@ -14,9 +14,9 @@ struct MemoryShares
     uint64_t textures = 0;
 };
 
-/// Divide the budget. Both sides get what is always resident, and halves of the rest; what one cannot use, the
-/// other gets. The bytes that a view wants of either are bounded by its pixels, however large the pack is: so
-/// shares in proportion to all pages and all mips would leave the smaller side short.
+/// Divide the budget. Both sides get what is always resident, and halves of the rest; what one cannot use,
+/// the other gets. The bytes that a view wants of either are bounded by its pixels, however large the pack
+/// is: so shares in proportion to all pages and all mips would leave the smaller side short.
 /// pages     with the sizes of their slots (PageGraph::withSlotSize)
 /// textures  TextureGraph::nodes
 MemoryShares divideMemory(uint64_t budget_bytes, const PageGraph& pages, const PageGraph& textures);

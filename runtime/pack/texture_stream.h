@@ -68,8 +68,8 @@ public:
     /// Begin a frame, as PageStream::beginFrame does.
     TextureChanges beginFrame(uint64_t serial, uint64_t completed_serial);
 
-    /// Request the mips that a view wants of an image. Those that the budget could not hold beside the tails of
-    /// all images are not asked for: they would blur all other images in vain.
+    /// Request the mips that a view wants of an image. Those that the budget could not hold beside the tails
+    /// of all images are not asked for: they would blur all other images in vain.
     /// pixels_log2  as mipPriority
     void request(const TextureUse& use, float pixels_log2);
 

@@ -244,17 +244,17 @@ Words wordsFor(std::string_view cooker, const settings::Values& values)
 
 TEST(Arguments, giveEachCookerItsOwnSettings)
 {
-    const auto profile =
-        parseProfileFile("import.crease_angle = 30\nimport.scale = 0.01\nimport.up = 'z'\n"
-                         "animation.error = 0.25\n"
-                         "clusters.influences = 4\nclusters.levels = [{ keep = 0.6 }]\n"
-                         "textures.max_size = 64\ntextures.max_bits = 8\nvisibility.mode = 'on'\n"
-                         "visibility.quality = 'draft'\nvisibility.distance = 2\n"
-                         "visibility.power = 1\nvisibility.poses = ['Run', 'Walk']\n"
-                         "visibility.refine = true\nvisibility.occluders = 'mesh'\n"
-                         "bricks.mode = 'on'\nbricks.voxel_size = 0.5\n"
-                         "bricks.memory = '1M'\n",
-                         "house.toml");
+    const auto profile = parseProfileFile(
+        "import.crease_angle = 30\nimport.scale = 0.01\nimport.up = 'z'\n"
+        "animation.error = 0.25\n"
+        "clusters.influences = 4\nclusters.levels = [{ keep = 0.6 }]\n"
+        "textures.max_size = 64\ntextures.max_bits = 8\ntextures.budget = '1M'\nvisibility.mode = 'on'\n"
+        "visibility.quality = 'draft'\nvisibility.distance = 2\n"
+        "visibility.power = 1\nvisibility.poses = ['Run', 'Walk']\n"
+        "visibility.refine = true\nvisibility.occluders = 'mesh'\n"
+        "bricks.mode = 'on'\nbricks.voxel_size = 0.5\n"
+        "bricks.memory = '1M'\n",
+        "house.toml");
     ASSERT_TRUE(profile.ok()) << formatMessage(profile.error());
     const settings::Values& values = profile->values;
     EXPECT_TRUE(cookers::checkSourceSettings(values).ok());
