@@ -18,7 +18,7 @@ struct LoadedImage
 {
     formats::ChunkData data;
     PlainImage image{};
-    std::string name;
+    std::string name{};
     Error place{}; ///< file and place of the image, for messages
 };
 

@@ -36,8 +36,8 @@ struct RoleRule
 
 struct NameRule
 {
-    std::string name; ///< a pattern, as matchesPattern
-    std::string path; ///< pattern of sources, which hearth replaces before it starts a cooker; empty: any
+    std::string name;   ///< a pattern, as matchesPattern
+    std::string path{}; ///< pattern of sources, which hearth replaces before it starts a cooker; empty: any
     TextureChoice choice{};
 };
 
