@@ -108,6 +108,16 @@ TEST_F(Cook, reportsWhereItDoesNotEvenBegin)
     EXPECT_EQ(report["failures"][0]["code"], "E4000");
 }
 
+TEST_F(Cook, reportsACacheThatItCannotHave)
+{
+    EXPECT_EQ(
+        cook({"good.gltf", "-o", "a.hearth", "--report", "report.json", "--cache", "http://"}).exit_code, 2);
+    const auto report = Json::parse(folder.read("report.json")).value();
+    EXPECT_EQ(faultOfReport(report), "");
+    EXPECT_EQ(report["assets"][0]["state"], "not cooked");
+    EXPECT_EQ(report["failures"][0]["code"], "E1000");
+}
+
 TEST_F(Cook, tellsThatImagesAreDrawnAndCountsTheirTime)
 {
     programs.write("hearth-render", kRender, true);

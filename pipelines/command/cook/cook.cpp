@@ -440,6 +440,7 @@ std::string finishPack(const graph::Graph& graph, const graph::Executor& executo
 void cookGraph(graph::Graph& graph, CookState* state, const CookOptions& options, EventLog* log,
                CookRecorder& recorder)
 {
+    recorder.begin(graph);
     CookOutcome& outcome = recorder.report();
     cache::Cache* cache = state == nullptr ? nullptr : &state->cache();
     graph::ActionCache* actions = state == nullptr ? nullptr : &state->actions();
@@ -503,7 +504,6 @@ void cookInto(const CookOptions& options, EventLog* log, std::optional<graph::Gr
     if (!made.ok())
         return failed(made.error());
     graph = std::move(made).value();
-    recorder.begin(*graph);
     if (log != nullptr)
         log->cook(*graph);
     if (options.no_cache)
