@@ -39,9 +39,8 @@ EstimatedImage estimateImage(const LoadedImage& loaded, const Request& request)
     const PlainImage& image = loaded.image;
     const std::vector<SmoothCells> smooth = findSmoothCells(image);
     EstimatedImage estimated{.name = loaded.name, .content = hashContent(image)};
-    for (Candidate candidate : request.candidates)
+    for (const Candidate& candidate : request.candidates)
     {
-        candidate.has_smooth_areas = !smooth.empty();
         // a budget is spent on compressed formats, however large it is
         if (candidate.traits->family == TexelFamily::plain && request.candidates.size() > 1)
             continue;

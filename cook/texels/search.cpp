@@ -257,9 +257,10 @@ size_t findCheapest(Estimates& estimates, size_t count)
 
 /// Encode, measure what is lost, and compare it with the target. The area of a cut-out is kept as far as the
 /// target allows: scaled alphas are an error, too, and must not cost another format.
-Encoding encodeMeasured(const PlainImage& image, std::span<const SmoothCells> smooth,
-                        const Candidate& candidate, const Target& target, Effort effort)
+Encoding encodeMeasured(const PlainImage& image, std::span<const SmoothCells> smooth, Candidate candidate,
+                        const Target& target, Effort effort)
 {
+    candidate.has_smooth_areas = !smooth.empty();
     Encoding encoding{.candidate = candidate, .texels = encodeImage(image, candidate, effort)};
     const auto measure = [&](Encoding& measured)
     {
@@ -338,9 +339,10 @@ Target makeTarget(ImageRole role, Effort quality, double wanted)
     return {error, usual.smooth * (error / usual.error)};
 }
 
-ImageError estimateError(const PlainImage& image, std::span<const SmoothCells> smooth,
-                         const Candidate& candidate, Effort effort)
+ImageError estimateError(const PlainImage& image, std::span<const SmoothCells> smooth, Candidate candidate,
+                         Effort effort)
 {
+    candidate.has_smooth_areas = !smooth.empty();
     const std::vector<Piece> pieces = listPieces(image, *candidate.traits);
     const ErrorSum none(image.role, image.channels);
     std::vector<ErrorSums> piece_sums(pieces.size(), {none, none});
@@ -361,17 +363,14 @@ ImageError estimateError(const PlainImage& image, std::span<const SmoothCells> s
             .smooth = combineMips(image.role, image.channels, smooth_sums)};
 }
 
-Encoding encodeForTarget(const PlainImage& image, std::span<const Candidate> listed, const Target& target,
+Encoding encodeForTarget(const PlainImage& image, std::span<const Candidate> candidates, const Target& target,
                          Effort effort, bool strict)
 {
-    HEARTH_ASSERT(!listed.empty());
+    HEARTH_ASSERT(!candidates.empty());
     const std::vector<SmoothCells> smooth = findSmoothCells(image);
-    std::vector<Candidate> candidates(listed.begin(), listed.end());
-    for (Candidate& candidate : candidates)
-        candidate.has_smooth_areas = !smooth.empty();
     if (candidates.size() == 1)
         return encodeMeasured(image, smooth, candidates.back(), target, effort);
-    Estimates estimates(image, smooth, std::span(candidates).first(candidates.size() - 1), target, effort);
+    Estimates estimates(image, smooth, candidates.first(candidates.size() - 1), target, effort);
     Encoding encoding = encodeBest(image, candidates, target, effort, strict, smooth, estimates);
     encoding.estimates = estimates.list();
     return encoding;
@@ -380,10 +379,7 @@ Encoding encodeForTarget(const PlainImage& image, std::span<const Candidate> lis
 Encoding encodeCandidate(const PlainImage& image, const Candidate& candidate, const Target& target,
                          Effort effort)
 {
-    const std::vector<SmoothCells> smooth = findSmoothCells(image);
-    Candidate told = candidate;
-    told.has_smooth_areas = !smooth.empty();
-    return encodeMeasured(image, smooth, told, target, effort);
+    return encodeMeasured(image, findSmoothCells(image), candidate, target, effort);
 }
 
 } // namespace hearth::texels
