@@ -19,6 +19,46 @@ constexpr uint32_t kSide = 4;
 constexpr uint64_t kMinSmoothPart = 2; // one of so many cells is smooth
 constexpr int kMaxSpan = 4 * 257;      // of 65535
 
+/// Return whether no channel that is read spans more than kMaxSpan in a cell.
+bool isFlat(std::span<const DecodedTexel> texels, uint32_t width, Channels channels, uint64_t column)
+{
+    const uint64_t begin = column * kSide, end = std::min<uint64_t>(begin + kSide, width);
+    for (uint32_t c = 0; c < 4; ++c)
+    {
+        if (!has(channels, c))
+            continue;
+        int low = 65535, high = 0;
+        for (size_t row = 0; row < texels.size(); row += width)
+            for (uint64_t x = begin; x < end; ++x)
+            {
+                const int value = texels[row + x][c];
+                low = std::min(low, value);
+                high = std::max(high, value);
+            }
+        if (high - low > kMaxSpan)
+            return false;
+    }
+    return true;
+}
+
+/// Return, for each cell of a mip, whether it is flat.
+std::vector<uint8_t> findFlatCells(const PlainImage& image, uint32_t mip, uint64_t columns, uint64_t rows)
+{
+    const MipExtent extent = mipExtent(image.record, mip);
+    std::vector<uint8_t> is_flat(static_cast<size_t>(columns * rows));
+    tbb::parallel_for(uint64_t{0}, rows,
+                      [&](uint64_t row)
+                      {
+                          const auto y = static_cast<uint32_t>(row) * kSide;
+                          const std::vector<DecodedTexel> texels =
+                              decodeRows(image, mip, y, std::min(kSide, extent.height - y));
+                          for (uint64_t column = 0; column < columns; ++column)
+                              is_flat[row * columns + column] =
+                                  isFlat(texels, extent.width, image.channels, column);
+                      });
+    return is_flat;
+}
+
 } // namespace
 
 SmoothCells::SmoothCells(const PlainImage& image, uint32_t mip)
@@ -26,32 +66,18 @@ SmoothCells::SmoothCells(const PlainImage& image, uint32_t mip)
     const MipExtent extent = mipExtent(image.record, mip);
     columns_ = (uint64_t{extent.width} + kSide - 1) / kSide;
     const uint64_t rows = (uint64_t{extent.height} + kSide - 1) / kSide;
-    is_smooth_.resize(static_cast<size_t>(columns_ * rows));
-    tbb::parallel_for(uint64_t{0}, rows,
-                      [&](uint64_t row)
-                      {
-                          const auto y = static_cast<uint32_t>(row) * kSide;
-                          const uint32_t height = std::min(kSide, extent.height - y);
-                          const std::vector<DecodedTexel> texels = decodeRows(image, mip, y, height);
-                          for (uint64_t column = 0; column < columns_; ++column)
-                          {
-                              int span = 0;
-                              for (uint32_t c = 0; c < 4; ++c)
-                              {
-                                  int low = 65535, high = 0;
-                                  for (uint32_t j = 0; j < height; ++j)
-                                      for (uint64_t x = column * kSide;
-                                           x < std::min<uint64_t>(column * kSide + kSide, extent.width); ++x)
-                                      {
-                                          const int value = texels[j * extent.width + x][c];
-                                          low = std::min(low, value);
-                                          high = std::max(high, value);
-                                      }
-                                  span = has(image.channels, c) ? std::max(span, high - low) : span;
-                              }
-                              is_smooth_[row * columns_ + column] = span <= kMaxSpan;
-                          }
-                      });
+    const std::vector<uint8_t> is_flat = findFlatCells(image, mip, columns_, rows);
+    is_smooth_.resize(is_flat.size());
+    for (uint64_t row = 0; row < rows; ++row)
+        for (uint64_t column = 0; column < columns_; ++column)
+        {
+            bool smooth = true;
+            for (uint64_t y = row - std::min<uint64_t>(row, 1); y < std::min(row + 2, rows); ++y)
+                for (uint64_t x = column - std::min<uint64_t>(column, 1); x < std::min(column + 2, columns_);
+                     ++x)
+                    smooth = smooth && is_flat[y * columns_ + x] != 0;
+            is_smooth_[row * columns_ + column] = smooth;
+        }
 }
 
 uint64_t SmoothCells::countSmooth() const

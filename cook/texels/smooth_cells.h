@@ -12,7 +12,7 @@ namespace hearth::texels
 {
 
 /// Cells of 4 x 4 texels of a mip, from its corner on. A cell is smooth if no channel that is read spans more
-/// than 4 of 255 codes in it.
+/// than 4 of 255 codes in it, nor in any of the eight cells around it: an edge hides errors beside it.
 class SmoothCells
 {
 public:
