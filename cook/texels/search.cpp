@@ -3,7 +3,6 @@
 
 #include "cook/texels/match_coverage.h"
 #include "formats/base/assert.h"
-#include "formats/pack/image_error.h"
 #include "formats/texels/decode_texels.h"
 #include "formats/texels/plain_decoder.h"
 
@@ -11,8 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
 namespace hearth::texels
 {
@@ -174,23 +171,6 @@ std::vector<Piece> listPieces(const PlainImage& image, const TexelFormatTraits& 
     return pieces;
 }
 
-double decibels(double value)
-{
-    return std::pow(10.0, -value / 20);
-}
-
-// Images whose errors are seen texel by texel, and their share of the error that others may have: 3 dB.
-constexpr uint32_t kMaxSmallSide = 256;
-constexpr double kStrictShare = 0.7079;
-
-// Target of smooth texels where no seam shows.
-constexpr double kUnlimited = std::numeric_limits<double>::infinity();
-
-double degrees(double value)
-{
-    return value * std::numbers::pi / 180;
-}
-
 /// Return the larger part of its target that an error takes, of all texels or of the smooth ones.
 double findShare(const ImageError& error, const Target& target)
 {
@@ -304,40 +284,6 @@ Encoding encodeBest(const PlainImage& image, std::span<const Candidate> candidat
 }
 
 } // namespace
-
-Target findTarget(ImageRole role, Effort quality)
-{
-    const auto pick = [&](double draft, double normal, double high) {
-        return quality == Effort::draft ? draft : quality == Effort::normal ? normal : high;
-    };
-    switch (role)
-    {
-    case ImageRole::normal:
-        return {degrees(pick(4.5, 3, 2)), kUnlimited};
-    case ImageRole::data:
-        return {decibels(pick(33, 36, 40)), kUnlimited};
-    case ImageRole::light:
-        return {pick(0.1, 0.05, 0.03), kUnlimited};
-    default:
-        return {decibels(pick(34, 36.5, 42)), decibels(pick(48, 53, 55))};
-    }
-}
-
-Target findTarget(const PlainImage& image, Effort quality)
-{
-    Target target = findTarget(image.role, quality);
-    const bool is_small = std::max(image.record.width, image.record.height) <= kMaxSmallSide;
-    if (image.role == ImageRole::cutout || (isSrgb(image.record.format) && is_small))
-        target.error *= kStrictShare;
-    return target;
-}
-
-Target makeTarget(ImageRole role, Effort quality, double wanted)
-{
-    const Target usual = findTarget(role, quality);
-    const double error = restoreImageError(role, wanted);
-    return {error, usual.smooth * (error / usual.error)};
-}
 
 ImageError estimateError(const PlainImage& image, std::span<const SmoothCells> smooth, Candidate candidate,
                          Effort effort)

@@ -21,14 +21,6 @@ constexpr double kRange = 65535;
 constexpr uint32_t kMaxMeasuredMips = 4;
 constexpr uint32_t kMinMeasuredSide = 64;
 
-/// Return the direction that a shader makes of x and y.
-Double3 directionFromXy(const DecodedTexel& texel)
-{
-    const double x = texel[0] / kRange * 2 - 1, y = texel[1] / kRange * 2 - 1;
-    const Double3 direction{x, y, std::sqrt(std::max(0.0, 1 - x * x - y * y))};
-    return direction * (1 / length(direction));
-}
-
 /// Return the angle between two directions; exact for small ones, where an arc cosine is not.
 double angleBetween(const DecodedTexel& plain, const DecodedTexel& stored)
 {
@@ -56,6 +48,13 @@ double stops(uint16_t half)
 }
 
 } // namespace
+
+Double3 directionFromXy(const DecodedTexel& texel)
+{
+    const double x = texel[0] / kRange * 2 - 1, y = texel[1] / kRange * 2 - 1;
+    const Double3 direction{x, y, std::sqrt(std::max(0.0, 1 - x * x - y * y))};
+    return direction * (1 / length(direction));
+}
 
 void ErrorSum::add(std::span<const DecodedTexel> plain, std::span<const DecodedTexel> stored)
 {

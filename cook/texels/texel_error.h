@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cook/texels/plain_image.h"
+#include "formats/base/double3.h"
 
 #include <array>
 #include <cstdint>
@@ -10,6 +11,9 @@
 
 namespace hearth::texels
 {
+
+/// Return the direction that a shader makes of x and y of a normal map's texel.
+Double3 directionFromXy(const formats::DecodedTexel& texel);
 
 /// Sum of the errors of texels of one mip. Squares are those of
 ///   color, emissive, data  codes as shares of their range; a mean over the channels, of data the worst one

@@ -57,8 +57,9 @@ Result<Request> makeRequest(const PlainImage& image, const TexelOptions& options
     TextureChoice choice = resolveChoice(
         options.rules, {.quality = options.quality, .families = options.families}, image.role, name);
     Request request{.candidates = listCandidates(image, *choice.families), .effort = *choice.quality};
-    request.target = findTarget(image, request.effort);
-    if (choice.target)
+    if (!choice.target)
+        request.target = findTarget(image, request.effort);
+    else
     {
         const auto [low, high] = targetRange(image.role);
         if (*choice.target < low || *choice.target > high)

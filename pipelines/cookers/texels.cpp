@@ -41,8 +41,8 @@ Setting familiesSetting(std::string key, std::string_view default_text)
 Setting qualitySetting(std::string key, std::string_view default_text)
 {
     return choiceSetting(std::move(key),
-                         "error that textures may have, and effort: colours at least 34, 36.5 or 42 dB, "
-                         "normals at most 4.5, 3 or 2 degrees",
+                         "error that textures may have, and effort: colours at least 34, 39 or 43 dB, "
+                         "normals at most 3, 1.5 or .75 degrees",
                          default_text, {"draft", "normal", "high"});
 }
 

@@ -222,6 +222,7 @@ int judge(const Measured& result)
                      ratio(others.bytes, result.common.countBytes()));
     judgement.record("worst error / that of 6x6, colours and data", others.worst / others.fixed_worst);
     judgement.record("bytes / those of 4x4, normals", ratio(normals.bytes, normals.fixed_bytes));
+    judgement.record("worst error / that of 4x4, normals", normals.worst / normals.fixed_worst);
     for (const auto& [side, figure] :
          {std::pair(1024u, "search / one encoding, 1024"), std::pair(2048u, "search / one encoding, 2048")})
         if (const auto found = result.times.find(side); found != result.times.end())

@@ -156,7 +156,7 @@ TEST(TexelSearch, smoothAreasAreEncodedFinerThanLibastcencAloneWould)
     const auto sky = [](uint32_t c, double x, double y)
     {
         const double wave = 0.5 + 0.1 * std::sin(3 * x + c) * std::cos(2 * y - 0.5 * c);
-        return c == 3 ? 1 : wave + (std::abs(std::fmod(5 * x + 3 * y, 1.0)) < 0.4 ? 0.2 : 0);
+        return c == 3 ? 1 : wave + (std::abs(std::fmod(2 * x + y, 1.0)) < 0.4 ? 0.2 : 0);
     };
     const TestImage image = makeImage(256, 256, 1, TexelFormat::rgba8_srgb, sky);
     const PlainImage plain = image.plain(ImageRole::color, kRgb);
@@ -205,26 +205,6 @@ TEST(TexelSearch, estimatesAreNearTheWhole)
                         toDecibels(whole), 0.45)
                 << candidate.traits->name;
         }
-}
-
-TEST(TexelSearch, cutoutsAndSmallColorsAreHeldToThreeDecibelsMore)
-{
-    const auto gain = [](uint32_t width, uint32_t height, ImageRole role, TexelFormat format)
-    {
-        PlainImage image;
-        image.record.width = width;
-        image.record.height = height;
-        image.record.format = static_cast<uint32_t>(format);
-        image.role = role;
-        const Target usual = findTarget(role, Effort::normal), found = findTarget(image, Effort::normal);
-        EXPECT_EQ(found.smooth, usual.smooth);
-        return toDecibels(found.error) - toDecibels(usual.error);
-    };
-    EXPECT_NEAR(gain(256, 256, ImageRole::color, TexelFormat::rgba8_srgb), 3, 0.01);
-    EXPECT_NEAR(gain(512, 300, ImageRole::cutout, TexelFormat::rgba8_srgb), 3, 0.01);
-    EXPECT_EQ(gain(16, 257, ImageRole::color, TexelFormat::rgba8_srgb), 0);
-    EXPECT_EQ(gain(64, 64, ImageRole::data, TexelFormat::rgba8_unorm), 0);
-    EXPECT_EQ(gain(64, 64, ImageRole::normal, TexelFormat::rgba8_unorm), 0);
 }
 
 TEST(TexelSearch, whatMissesItsTargetGetsTheBestOrStaysPlain)
