@@ -3,10 +3,10 @@
 
 #include "cook/texels/astc_encoder.h"
 #include "cook/texels/block_encoder.h"
-#include "cook/texels/plain_encoder.h"
 #include "formats/base/assert.h"
 #include "formats/base/half.h"
 #include "formats/texels/decode_texels.h"
+#include "formats/texels/plain_encoder.h"
 #include "formats/texels/swizzle.h"
 
 #include <tbb/blocked_range.h>
@@ -202,7 +202,11 @@ std::vector<std::byte> encodeTexels(const Candidate& candidate, const StoredTexe
     case TexelFamily::astc_hdr:
         return encodeAstc(candidate, texels, effort);
     case TexelFamily::plain:
-        return encodePlain(*candidate.traits, texels.texels);
+    {
+        std::vector<std::byte> bytes(texels.texels.size() * candidate.traits->block_bytes);
+        encodePlain(*candidate.traits, texels.texels, bytes);
+        return bytes;
+    }
     case TexelFamily::etc2:
     case TexelFamily::bc:
         break;

@@ -5,6 +5,7 @@
 #include "formats/codecs/page_decode.h"
 #include "formats/pack/check_tools.h"
 #include "formats/records/chunk_list.h"
+#include "formats/texels/decoded_texel.h"
 
 #include <algorithm>
 

@@ -47,12 +47,6 @@ constexpr uint32_t texelBytes(uint32_t format)
     return traits == nullptr || traits->family != TexelFamily::plain ? 0 : traits->block_bytes;
 }
 
-/// Reduce a channel of 16 bits to 8, to the nearest.
-constexpr uint8_t narrowUnorm(uint16_t channel)
-{
-    return static_cast<uint8_t>((channel * 255u + 32767u) / 65535u);
-}
-
 /// Return texels with their channels reduced from 16 bits to 8.
 std::vector<std::byte> narrowTexels(std::span<const std::byte> texels);
 

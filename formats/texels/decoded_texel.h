@@ -15,4 +15,10 @@ namespace hearth::formats
 ///   float  bits of a half float
 using DecodedTexel = std::array<uint16_t, 4>;
 
+/// Reduce a channel of 16 bits to 8, to the nearest.
+constexpr uint8_t narrowUnorm(uint16_t channel)
+{
+    return static_cast<uint8_t>((channel * 255u + 32767u) / 65535u);
+}
+
 } // namespace hearth::formats

@@ -2,13 +2,11 @@
 #include "runtime/pack/decoded_texels.h"
 
 #include "formats/texels/decode_texels.h"
-
-#include <cstring>
+#include "formats/texels/plain_encoder.h"
 
 namespace hearth::pack
 {
 
-using formats::DecodedTexel;
 using formats::TexelFormat;
 using formats::TexelFormatTraits;
 
@@ -18,21 +16,6 @@ namespace
 const TexelFormatTraits& decodedTraits(const formats::ImageRecord& image)
 {
     return formats::texelTraits(decodedFormat(*formats::findTexelFormat(image.format)));
-}
-
-/// Write texels in a format of decodedFormat, and return what follows them.
-std::byte* writeTexels(const TexelFormatTraits& traits, std::span<const DecodedTexel> texels, std::byte* out)
-{
-    for (const DecodedTexel& texel : texels)
-        if (traits.format == TexelFormat::rgba16_float)
-        {
-            std::memcpy(out, texel.data(), sizeof(texel));
-            out += sizeof(texel);
-        }
-        else
-            for (uint32_t c = 0; c < traits.channels; ++c)
-                *out++ = std::byte{formats::narrowUnorm(texel[c])};
-    return out;
 }
 
 /// Return the rows of a mip that a piece has.
@@ -67,13 +50,16 @@ void decodeTexels(const formats::ImageRecord& image, const formats::TexturePiece
 {
     const TexelFormatTraits& from = *formats::findTexelFormat(image.format);
     const TexelFormatTraits& to = decodedTraits(image);
-    std::byte* out = texels.data();
     for (uint32_t mip = piece.mip; mip < piece.mip + piece.mip_count; ++mip)
     {
         const uint32_t width = formats::mipExtent(image, mip).width, rows = pieceRows(image, piece, mip);
         const auto bytes = static_cast<size_t>(formats::mipBytes(from, width, rows));
-        out = writeTexels(to, formats::decodeMip(from, width, rows, stored.first(bytes)), out);
+        const std::vector<formats::DecodedTexel> decoded =
+            formats::decodeMip(from, width, rows, stored.first(bytes));
+        const std::span<std::byte> out = texels.first(decoded.size() * to.block_bytes);
+        formats::encodePlain(to, decoded, out);
         stored = stored.subspan(bytes);
+        texels = texels.subspan(out.size());
     }
 }
 

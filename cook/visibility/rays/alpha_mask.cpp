@@ -3,6 +3,7 @@
 
 #include "formats/base/half.h"
 #include "formats/records/texel_wrap.h"
+#include "formats/texels/decoded_texel.h"
 
 #include <algorithm>
 #include <cmath>

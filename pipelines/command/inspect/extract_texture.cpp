@@ -4,6 +4,7 @@
 #include "formats/base/atomic_file.h"
 #include "formats/base/nearest_match.h"
 #include "formats/pack/decode_image.h"
+#include "formats/texels/plain_encoder.h"
 #include "formats/texels/swizzle.h"
 #include "pipelines/command/inspect/open_pack.h"
 #include "pipelines/texture_files/ktx2_writer.h"
@@ -39,14 +40,20 @@ Result<uint32_t> findImage(const PackView& pack, const std::string& path, const 
             (nearest.empty() ? ": hearth inspect lists them" : "; did you mean \"" + nearest + "\"?")};
 }
 
-/// Return all mips as RGBA8, as shaders read them.
-std::vector<std::byte> decodeMips(const ImageRecord& image, std::span<const std::byte> mips)
+/// Return all mips in a format of RGBA8, as shaders read them.
+std::vector<std::byte> decodeMips(const ImageRecord& image, std::span<const std::byte> mips,
+                                  const TexelFormatTraits& traits)
 {
     std::vector<std::byte> bytes;
     for (uint32_t mip = 0; mip < image.mip_count; ++mip)
-        for (const DecodedTexel& stored : decodeImageMip(image, mips, mip))
-            for (const uint16_t channel : applySwizzle(stored, image.swizzle, 0xFFFF))
-                bytes.push_back(std::byte{narrowUnorm(channel)});
+    {
+        std::vector<DecodedTexel> texels = decodeImageMip(image, mips, mip);
+        for (DecodedTexel& texel : texels)
+            texel = applySwizzle(texel, image.swizzle, 0xFFFF);
+        const size_t before = bytes.size();
+        bytes.resize(before + texels.size() * traits.block_bytes);
+        encodePlain(traits, texels, std::span(bytes).subspan(before));
+    }
     return bytes;
 }
 
@@ -80,8 +87,8 @@ Status extractTexture(const std::string& path, const TextureExtraction& extracti
                                    image.mip_count, data.bytes(), swizzleText(image)};
     if (extraction.is_decoded)
     {
-        decoded = decodeMips(image, data.bytes());
         texture.traits = &texelTraits(plain);
+        decoded = decodeMips(image, data.bytes(), *texture.traits);
         texture.mips = decoded;
         texture.swizzle = "rgba";
     }

@@ -3,7 +3,7 @@
 
 #include "formats/base/assert.h"
 #include "formats/base/half.h"
-#include "formats/pack/pack_view.h"
+#include "formats/texels/decoded_texel.h"
 #include "pipelines/import/images/resized_image.h"
 
 #include <algorithm>

@@ -3,7 +3,6 @@
 
 #include "formats/base/assert.h"
 #include "formats/base/half.h"
-#include "formats/pack/pack_view.h"
 #include "formats/texels/decode_texels.h"
 
 #include <algorithm>

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/texels/plain_encoder.h"
+#include "formats/texels/plain_encoder.h"
 
 #include "formats/base/assert.h"
 #include "formats/base/half.h"
-#include "formats/pack/pack_view.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 
-namespace hearth::texels
+namespace hearth::formats
 {
-
-using namespace formats;
 
 namespace
 {
@@ -43,10 +40,16 @@ uint32_t encodeSharedExponent(const DecodedTexel& texel)
 
 } // namespace
 
-std::vector<std::byte> encodePlain(const TexelFormatTraits& traits, std::span<const DecodedTexel> texels)
+void encodePlain(const TexelFormatTraits& traits, std::span<const DecodedTexel> texels,
+                 std::span<std::byte> bytes)
 {
     HEARTH_ASSERT(traits.family == TexelFamily::plain);
-    std::vector<std::byte> bytes(texels.size() * traits.block_bytes);
+    HEARTH_ASSERT(bytes.size() == texels.size() * traits.block_bytes);
+    if (traits.block_bytes == sizeof(DecodedTexel))
+    {
+        std::memcpy(bytes.data(), texels.data(), bytes.size());
+        return;
+    }
     for (size_t i = 0; i < texels.size(); ++i)
     {
         std::byte* const out = bytes.data() + i * traits.block_bytes;
@@ -59,7 +62,6 @@ std::vector<std::byte> encodePlain(const TexelFormatTraits& traits, std::span<co
             for (uint32_t c = 0; c < traits.channels; ++c)
                 out[c] = std::byte{narrowUnorm(texels[i][c])};
     }
-    return bytes;
 }
 
-} // namespace hearth::texels
+} // namespace hearth::formats
