@@ -3,15 +3,20 @@
 #include "cook/command_line/command_line.h"
 #include "cook/texels/role.h"
 #include "cook/texels/search.h"
+#include "cook/tools/child_processes.h"
 #include "formats/base/program.h"
 #include "formats/pack/image_error.h"
 #include "formats/pack/part_materials.h"
 #include "tests/bench/aims.h"
+#include "tests/support/sandbox.h"
 
 #include <algorithm>
 #include <ctime>
+#include <filesystem>
 #include <fmt/format.h>
+#include <limits>
 #include <map>
+#include <sys/resource.h>
 
 namespace
 {
@@ -200,9 +205,38 @@ void printRoles(const Measured& result)
     }
 }
 
-int judge(const Measured& result)
+/// Return the processor time of all child processes that have ended, in seconds.
+double countChildSeconds()
+{
+    rusage used{};
+    ::getrusage(RUSAGE_CHILDREN, &used);
+    const auto seconds = [](const timeval& time)
+    { return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec); };
+    return seconds(used.ru_utime) + seconds(used.ru_stime);
+}
+
+/// Return the processor time that hearth-texels takes for drafts of a source's textures, in seconds.
+double measureDraft(const std::string& stem)
+{
+    const std::string parts = std::filesystem::absolute(stem).string();
+    const double before = countChildSeconds();
+    test::Sandbox folder;
+    const test::ProgramEnd end =
+        folder.run({tools::programFolder() + "/hearth-texels", parts + ".import.part",
+                    parts + ".textures.part", "-o", "texels.part", "--quality", "draft"});
+    const double seconds = countChildSeconds() - before;
+    fmt::print("draft of {}: {:.2f} s of processor{}\n", stem.substr(stem.rfind('/') + 1), seconds,
+               end.exit_code == 0 ? "" : ", failed: " + end.err);
+    return end.exit_code == 0 ? seconds : std::numeric_limits<double>::quiet_NaN();
+}
+
+int judge(const Measured& result, const std::string& draft_stem)
 {
     bench::Judgement judgement("textures");
+    if (draft_stem.empty())
+        judgement.leaveOut("draft of the demo, s of processor");
+    else
+        judgement.record("draft of the demo, s of processor", measureDraft(draft_stem));
     RoleSums others, normals;
     for (const auto& [name, sums] : result.roles)
     {
@@ -236,9 +270,12 @@ int program(int argc, char** argv)
         "Compresses textures by their measured error, beside ASTC 6x6 (normals 4x4) for all.");
     std::vector<std::string> stems;
     std::string quality = "normal";
+    std::string draft;
     uint32_t max_images = 1000;
     app.addOption("source", stems, "STEM of STEM.import.part and STEM.textures.part").required();
     app.addOption("--quality", quality, "draft, normal or high");
+    app.addOption("--draft", draft,
+                  "STEM of the source whose textures are encoded as drafts, for the processor time");
     app.addOption("--max-images", max_images, "images of a source that are measured");
     if (const std::optional<int> exit_code = app.parse(argc, argv))
         return *exit_code;
@@ -250,7 +287,7 @@ int program(int argc, char** argv)
         if (const Status measured = measureSource(stem, effort, max_images, result); !measured.ok())
             return reportFailure(measured.error());
     printRoles(result);
-    return judge(result);
+    return judge(result, draft);
 }
 
 } // namespace
