@@ -1,5 +1,5 @@
-// Compares images that oiiotool has written with what Hearth reads in them, by idiff: a second opinion from the
-// programs of OpenImageIO, beside tests that write files byte by byte.
+// Compares images that oiiotool has written with what Hearth reads in them, by idiff: a second opinion from
+// the programs of OpenImageIO, beside tests that write files byte by byte.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/base/half.h"
 #include "tests/pipelines_images/images_fixture.h"

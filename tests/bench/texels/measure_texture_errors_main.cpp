@@ -1,5 +1,5 @@
-// hearth_measure_texture_errors: compares the errors that encoded textures store with a plain recount, and with
-// the targets: a texture may miss its target only with a warning.
+// hearth_measure_texture_errors: compares the errors that encoded textures store with a plain recount, and
+// with the targets: a texture may miss its target only with a warning.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
 #include "cook/texels/texel_source.h"
@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 #include <sstream>
@@ -175,9 +176,14 @@ int program(int argc, char** argv)
         options.insert(options.end(), {"--family", family});
     Figures figures;
     for (const std::string& source : sources)
+    {
         if (const Status measured = measureSource(fs::absolute(source).string(), options, figures);
             !measured.ok())
             return reportFailure(measured.error());
+        fmt::print("{}: {} images so far, stored errors off by at most {:.1e}, of cut-outs {:.1e}\n", source,
+                   figures.images, figures.difference, figures.cutout_difference);
+        std::fflush(stdout); // it takes long
+    }
     return judge(figures);
 }
 
