@@ -174,9 +174,11 @@ TEST_F(Page, hasRoomForAllColumnsThatItShows)
         const std::string dom = open("page.html", width);
         EXPECT_EQ(getNumber(dom, "cut"), 0) << "tables of a page " << width << " pixels wide";
         EXPECT_NE(dom.find(">On the GPU<"), std::string::npos) << width;
+        EXPECT_NE(dom.find(">Role<"), std::string::npos) << width;
     }
     const std::string dom = open("page.html", 800);
-    EXPECT_NE(dom.find("No room for: Role"), std::string::npos) << dom.substr(dom.find("No room for: "), 120);
+    EXPECT_NE(dom.find("No room for: Image, Asset, Size"), std::string::npos)
+        << dom.substr(dom.find("No room for: "), 120);
 }
 
 TEST_F(Page, namesImagesByMaterialAndRole)

@@ -213,7 +213,7 @@ function texturesSection(data) {
   const detail = el('div.detail', {'aria-live': 'polite'}, about);
   const table = makeTable('Textures', data.textures, [
     {name: 'Material', of: texture => texture.material, show: texture => el('span', {title: usesText(texture)}, texture.material, texture.placeholder ? el('span.warn', {}, '  placeholder') : null), width: 'minmax(110px, 2fr)'},
-    {name: 'Role', of: texture => texture.role, show: texture => el('span', {title: usesText(texture)}, texture.role), width: '142px', drop: 8},
+    {name: 'Role', of: texture => texture.role, show: texture => el('span', {title: usesText(texture)}, texture.role), width: '142px'},
     {name: 'Image', of: texture => texture.name, show: texture => el('span.faint', {title: texture.name}, texture.name), width: 'minmax(90px, 1fr)', drop: 3},
     {name: 'Asset', of: texture => texture.asset.source, show: texture => el('span', {title: texture.asset.source}, nameOf(texture.asset.source)), width: 'minmax(90px, 1fr)', drop: 2},
     {name: 'Size', number: true, of: texture => texture.width * texture.height, show: texture => `${texture.width} × ${texture.height}`, width: '102px', drop: 7},
