@@ -96,6 +96,8 @@ Status cookTexels(const std::string& import_path, const std::string& textures_pa
             results.pictures.push_back(drawPictures(image, encoding));
         }
     }
+    if (!source.changedStrings().empty())
+        HEARTH_TRY(writer.addText(kChunkStrings, source.changedStrings()));
     HEARTH_TRY(writer.addRecords<ImageRecord>(kChunkImages, records));
     if (!source.changedMaterials().empty())
         HEARTH_TRY(writer.addRecords<MaterialRecord>(kChunkMaterials, source.changedMaterials()));

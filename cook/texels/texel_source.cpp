@@ -67,7 +67,7 @@ Result<LoadedImage> TexelSource::load(uint32_t index) const
         findReads(loaded.image.record, uses_[index], findMaterials(import_part_, textures_));
     loaded.image.role = reads.role;
     loaded.image.channels = reads.channels;
-    loaded.name = import_part_.text(loaded.image.record.name);
+    loaded.name = findImageName(import_part_, textures_, loaded.image.record);
     loaded.place = {Issue::texture_rule, import_part_.name(),
                     "image " + std::to_string(index) + " \"" + loaded.name + "\"", ""};
     return loaded;

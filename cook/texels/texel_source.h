@@ -8,6 +8,7 @@
 #include "formats/pack/pack_view.h"
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hearth::texels
@@ -35,6 +36,9 @@ public:
     {
         return textures_.materialLayers();
     }
+
+    /// Strings of the import part, followed by names of images that it does not have; empty: there are none.
+    std::string_view changedStrings() const { return textures_.strings(); }
 
     /// Load an image. errors: those of PackView::imageData; meaning_value and chunk_size where its record
     /// does not describe plain mips

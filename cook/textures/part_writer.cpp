@@ -86,6 +86,7 @@ PartWriter::PartWriter(const ContainerReader& part, const PartTables& tables, co
       layers_(tables.layers.begin(), tables.layers.end()),
       options_(options),
       writer_(writer),
+      strings_(tables.strings),
       has_statistics_(has_statistics)
 {
     numberImages();
@@ -144,7 +145,7 @@ Status PartWriter::writeChain(uint32_t index, ImageRecord image, std::span<const
     HEARTH_TRY(addImageData(writer_, index, records_[index],
                             chain.subspan(static_cast<size_t>(mipOffset(image, skipped_mips)))));
     if (has_statistics_)
-        statistics_[index] = computeStatistics(tables_.strings, image, chain, skipped_mips, imported);
+        statistics_[index] = computeStatistics(strings_, image, chain, skipped_mips, imported);
     return success();
 }
 
@@ -154,6 +155,19 @@ uint32_t PartWriter::addImage()
     records_.emplace_back();
     statistics_.resize(has_statistics_ ? records_.size() : 0);
     return static_cast<uint32_t>(records_.size() - 1);
+}
+
+/// Add the name of the roughness image that is made of another image.
+/// number  from 1 on, of those that are made of it
+StringRef PartWriter::addName(const StringRef& source, uint32_t number)
+{
+    std::string name = readName(strings_, source);
+    name += name.empty() ? "roughness" : " roughness";
+    if (number > 1)
+        name += " " + std::to_string(number);
+    const StringRef added{static_cast<uint32_t>(strings_.size()), static_cast<uint32_t>(name.size())};
+    strings_ += name;
+    return added;
 }
 
 /// Give materials another roughness image, which has the same occlusion.
@@ -212,6 +226,7 @@ Status PartWriter::writeVariants(uint32_t index, std::span<const RoughnessUse> u
         if (found == variants.end())
         {
             const uint32_t added = addImage();
+            stored.name = addName(image.name, static_cast<uint32_t>(variants.size()));
             const bool is_narrowed = stored.format != image.format;
             HEARTH_TRY(
                 writeChain(added, stored, variant, is_narrowed ? texels : std::span<const std::byte>()));
@@ -235,6 +250,7 @@ Status PartWriter::writeMissingRoughness(const RoughnessUse& use)
     if (findRoughnessRise(made.record, chain) <= kMinRoughnessRise)
         return success();
     const uint32_t added = addImage();
+    made.record.name = addName(tables_.images[use.normal_image].name, ++made_images_[use.normal_image]);
     for (const uint32_t index : use.materials)
     {
         MaterialRecord& material = materials_[index];
@@ -248,6 +264,8 @@ Status PartWriter::writeMissingRoughness(const RoughnessUse& use)
 
 Status PartWriter::finish()
 {
+    if (strings_.size() > tables_.strings.size())
+        HEARTH_TRY(writer_.addText(kChunkStrings, strings_));
     HEARTH_TRY(writer_.addRecords<ImageRecord>(kChunkImages, records_));
     if (has_changed_materials_)
     {

@@ -8,6 +8,7 @@
 #include "formats/container/container_writer.h"
 #include "formats/records/material_layers.h"
 
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -30,8 +31,9 @@ struct PartTables
     std::string_view strings{};
 };
 
-/// Textures part being written. Images of the import part keep their order, and new ones follow. Materials
-/// and their layers are written if they differ from those of the import part.
+/// Textures part being written. Images of the import part keep their order, and new ones follow, called after
+/// the image that they are made of. Materials and their layers are written if they differ from those of the
+/// import part.
 class PartWriter
 {
 public:
@@ -53,6 +55,7 @@ public:
 
     std::span<const formats::MaterialRecord> materials() const { return materials_; }
     std::span<const formats::MaterialLayersRecord> layers() const { return layers_; }
+    std::string_view strings() const { return strings_; }
     std::vector<ImageStatistics>& statistics() { return statistics_; }
 
 private:
@@ -66,6 +69,7 @@ private:
     Status writeChain(uint32_t index, formats::ImageRecord image, std::span<const std::byte> chain,
                       std::span<const std::byte> imported);
     uint32_t addImage();
+    formats::StringRef addName(const formats::StringRef& source, uint32_t number);
     void useImage(const RoughnessUse& use, uint32_t image);
 
     const formats::ContainerReader& part_;
@@ -76,7 +80,9 @@ private:
     formats::ContainerWriter& writer_;
     std::vector<uint32_t> numbers_{}; ///< [image of the import part]: that of the part, kInvalidIndex: none
     std::vector<formats::ImageRecord> records_{};
-    std::vector<ImageStatistics> statistics_{}; ///< of each record, if they are wanted
+    std::string strings_; ///< of the import part, then names of images that are made here
+    std::vector<ImageStatistics> statistics_{};  ///< of each record, if they are wanted
+    std::map<uint32_t, uint32_t> made_images_{}; ///< [normal map]: roughness images that are made of it
     bool has_statistics_;
     bool has_changed_materials_ = false;
 };

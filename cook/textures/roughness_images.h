@@ -35,7 +35,7 @@ struct RoughnessImage
 };
 
 /// Make an image of half the size of a normal map, with a roughness of 0 to 1 everywhere, to the nearest
-/// 1/255. It has no name: a rule for the normal map's name would not suit it.
+/// 1/255.
 RoughnessImage makeRoughnessImage(const formats::ImageRecord& normals, float roughness);
 
 } // namespace hearth::textures

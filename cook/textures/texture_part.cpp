@@ -97,7 +97,7 @@ Status cookTextures(const std::string& import_path, const std::string& output_pa
     if (statistics == nullptr)
         return success();
     *statistics = std::move(writer.statistics());
-    addUses(writer.materials(), writer.layers(), names, *statistics);
+    addUses(writer.materials(), writer.layers(), writer.strings(), *statistics);
     return addStoredBytes(output_path, *statistics);
 }
 

@@ -1,4 +1,5 @@
-// Finds the materials of a source: hearth-textures may give them other images than the importer did.
+// Finds the materials of a source and the names of its images: hearth-textures may give materials other
+// images than the importer did, and makes some itself.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -20,6 +21,20 @@ inline std::span<const MaterialLayersRecord> findMaterialLayers(const PackView& 
                                                                 const PackView& textures_part)
 {
     return textures_part.materials().empty() ? import_part.materialLayers() : textures_part.materialLayers();
+}
+
+/// Return the string table of a source: that of the textures (or texels) part if it has one, which begins
+/// with the import part's and goes on with names of images that hearth-textures has made.
+inline std::string_view findStrings(const PackView& import_part, const PackView& textures_part)
+{
+    return textures_part.strings().empty() ? import_part.strings() : textures_part.strings();
+}
+
+/// Return the name of an image of the textures (or texels) part.
+inline std::string_view findImageName(const PackView& import_part, const PackView& textures_part,
+                                      const ImageRecord& image)
+{
+    return (textures_part.strings().empty() ? import_part : textures_part).text(image.name);
 }
 
 /// Return whether a textures part can be of the same source as an import part: it has the same images in the

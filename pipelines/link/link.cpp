@@ -79,6 +79,9 @@ Status checkSameSource(const Source& source)
     const uint64_t images = source.import_part.images().size();
     if (!matchesImages(source.import_part, source.textures_part))
         return differ(source.textures_part, "images", source.textures_part.images().size(), images);
+    if (!findStrings(source.import_part, source.textures_part).starts_with(source.import_part.strings()))
+        return Error{Issue::meaning_reference, source.textures_part.name(), "",
+                     "has other strings than the import part"};
     const uint64_t instances = source.import_part.instances().size();
     const uint64_t surroundings = source.clusters_part.surroundings().size();
     if (surroundings != 0 && surroundings != instances)
@@ -163,8 +166,8 @@ Status assignOffsets(std::vector<Source>& sources, const std::string& output)
     {
         source.offsets = next;
         source.offsets.mesh_strings = next.strings;
-        if (!advanceOffset(source.offsets.mesh_strings, source.import_part.strings().size()) ||
-            !advanceOffsets(source, next))
+        const uint64_t strings = findStrings(source.import_part, source.textures_part).size();
+        if (!advanceOffset(source.offsets.mesh_strings, strings) || !advanceOffsets(source, next))
             return too_large;
     }
     for (Source& source : sources)
@@ -194,7 +197,7 @@ Status writeStrings(ContainerWriter& writer, std::span<const Source> sources)
     std::string strings;
     for (const Source& source : sources)
     {
-        strings += source.import_part.strings();
+        strings += findStrings(source.import_part, source.textures_part);
         strings += source.clusters_part.strings();
     }
     for (const Source& source : sources)

@@ -16,7 +16,7 @@ namespace hearth::link
 /// Start of each table of one source in the merged tables.
 struct TableOffsets
 {
-    uint32_t strings = 0;      ///< bytes; of the import part, which the textures part refers to as well
+    uint32_t strings = 0;      ///< bytes; of the import part, or of the textures part, which begins with them
     uint32_t mesh_strings = 0; ///< bytes; of the clusters part
     uint32_t assets = 0;
     uint32_t nodes = 0;

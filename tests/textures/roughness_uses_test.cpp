@@ -21,6 +21,7 @@ using namespace test;
 using namespace formats;
 using hearth::test::TemporaryFolder;
 
+constexpr std::string_view kStrings = "ormbricks_normal"; ///< names of the first two images
 constexpr uint32_t kRoughness = 0, kNormals = 1, kColor = 3;
 
 TextureRef refer(uint32_t image)
@@ -43,9 +44,13 @@ MaterialRecord makeMaterial(uint32_t normal_image = kNormals)
 
 std::vector<ImageRecord> makeImages()
 {
-    return {makeRecord(16, 16, TexelFormat::rgba8_unorm),
-            makeRecord(32, 16, TexelFormat::rgba8_unorm, kImageNormalMap),
-            makeRecord(16, 16, TexelFormat::rgba8_unorm, kImageNormalMap), makeRecord(16, 16)};
+    std::vector<ImageRecord> images = {makeRecord(16, 16, TexelFormat::rgba8_unorm),
+                                       makeRecord(32, 16, TexelFormat::rgba8_unorm, kImageNormalMap),
+                                       makeRecord(16, 16, TexelFormat::rgba8_unorm, kImageNormalMap),
+                                       makeRecord(16, 16)};
+    images[kRoughness].name = {0, 3};
+    images[kNormals].name = {3, 13};
+    return images;
 }
 
 std::vector<RoughnessUse> listUses(std::span<const MaterialRecord> materials,
@@ -150,6 +155,7 @@ protected:
         for (uint32_t i = 0; i < texels.size(); ++i)
             EXPECT_TRUE(
                 writer->addChunk({.type = kChunkImageData, .index = i}, texels[i], 1, Codec::none).ok());
+        EXPECT_TRUE(writer->addText(kChunkStrings, kStrings).ok());
         EXPECT_TRUE(writer->addRecords<ImageRecord>(kChunkImages, images).ok());
         EXPECT_TRUE(writer->addRecords<MaterialRecord>(kChunkMaterials, materials).ok());
         EXPECT_TRUE(writer->finish().ok());
@@ -158,6 +164,18 @@ protected:
         const auto part = ContainerReader::open(folder.file("out.part"));
         const auto data = part->read(kChunkImageData, kRoughness);
         return {data->bytes().begin(), data->bytes().end()};
+    }
+
+    /// Return the name of an image of the cooked part.
+    std::string findName(uint32_t image) const
+    {
+        const auto part = ContainerReader::open(folder.file("out.part"));
+        const auto data = part->read(kChunkStrings);
+        const std::string strings(reinterpret_cast<const char*>(data->bytes().data()), data->bytes().size());
+        const StringRef name = (*part->records<ImageRecord>(kChunkImages))[image].name;
+        EXPECT_TRUE(strings.starts_with(kStrings));
+        EXPECT_LE(name.offset + name.length, strings.size());
+        return strings.substr(name.offset, name.length);
     }
 
     std::vector<std::byte> expect(uint32_t normal_image, float scale, float factor)
@@ -213,6 +231,9 @@ TEST_F(RoughnessPart, isSplitWhereNormalMapsDiffer)
     EXPECT_EQ(mips(4), expect(kNormals, 1, 1));
     EXPECT_EQ(mips(5), expect(kNormals, 0.2f, 1));
     EXPECT_EQ((*records)[4].mip_count, (*records)[0].mip_count);
+    EXPECT_EQ(findName(kRoughness), "orm");
+    EXPECT_EQ(findName(4), "orm roughness");
+    EXPECT_EQ(findName(5), "orm roughness 2");
     EXPECT_FALSE(ContainerReader::open(folder.file("out.part"))->find(kChunkImageData, 6));
 }
 
@@ -239,7 +260,7 @@ TEST_F(RoughnessPart, isMadeWhereItRises)
         const ImageRecord& made = (*records)[4 + i];
         EXPECT_EQ(material.metallic_roughness_texture.image, 4 + i);
         EXPECT_EQ(material.metallic_roughness_texture.uv_set, 1) << "it lies where the normals do";
-        EXPECT_EQ(made.name.length, 0u) << "rules for the normal map do not hold for it";
+        EXPECT_EQ(findName(4 + i), i == 0 ? "bricks_normal roughness" : "bricks_normal roughness 2");
         EXPECT_EQ(made.width, 16u);
         EXPECT_EQ(made.height, 8u);
         const auto data = part->read(kChunkImageData, 4 + i);

@@ -581,8 +581,11 @@ TEST_F(LinkPack, takesMaterialsWithTheirLayersFromATexturesPartThatHasSome)
     for (TextureRef MaterialLayersRecord::*const texture : kLayerTextures)
         (model.material_layers[0].*texture).image = kInvalidIndex;
     model.images.resize(1);
+    const std::string made = "orm roughness"; // a name that the importer did not know
+    model.images[0].name = {static_cast<uint32_t>(model.strings.size()), static_cast<uint32_t>(made.size())};
     auto writer = formats::ContainerWriter::create(sandbox / "a.textures.part", ContainerKind::part);
     ASSERT_TRUE(writer.ok());
+    EXPECT_TRUE(writer->addText(kChunkStrings, model.strings + made).ok());
     EXPECT_TRUE(writer->addChunk({.type = kChunkImageData}, model.image_data[0], 1, Codec::none).ok());
     EXPECT_TRUE(writer->addRecords<ImageRecord>(kChunkImages, model.images).ok());
     EXPECT_TRUE(writer->addRecords<MaterialRecord>(kChunkMaterials, model.materials).ok());
@@ -593,10 +596,34 @@ TEST_F(LinkPack, takesMaterialsWithTheirLayersFromATexturesPartThatHasSome)
     const PackView pack = linked();
     EXPECT_TRUE(sameBytes(pack.materials().first(1), model.materials));
     EXPECT_TRUE(sameBytes(pack.materialLayers().first(1), model.material_layers));
-    EXPECT_EQ(pack.images().size(), 3u);
+    ASSERT_EQ(pack.images().size(), 3u);
+    const auto nameInSource = [&](StringRef name)
+    { return std::string_view(model.strings).substr(name.offset, name.length); };
+    EXPECT_EQ(pack.text(pack.images()[0].name), made);
+    EXPECT_EQ(pack.text(pack.images()[1].name), nameInSource(smallPack().images[0].name));
+    EXPECT_EQ(pack.text(pack.meshes()[0].name), nameInSource(model.meshes[0].name));
     ASSERT_EQ(pack.materials().size(), 2u);
     EXPECT_EQ(pack.materials()[1].normal_texture.image, 1u) << "after the one image of a.gltf";
     EXPECT_EQ(pack.materials()[1].occlusion_texture.image, 2u);
+}
+
+TEST_F(LinkPack, refusesATexturesPartWithOtherStrings)
+{
+    const PackModel model = named("a.gltf");
+    addParts(model, "a");
+    auto writer = formats::ContainerWriter::create(sandbox / "a.textures.part", ContainerKind::part);
+    ASSERT_TRUE(writer.ok());
+    for (uint32_t i = 0; i < model.images.size(); ++i)
+        EXPECT_TRUE(
+            writer->addChunk({.type = kChunkImageData, .index = i}, model.image_data[i], 1, Codec::none)
+                .ok());
+    EXPECT_TRUE(writer->addText(kChunkStrings, "x" + model.strings).ok());
+    EXPECT_TRUE(writer->addRecords<ImageRecord>(kChunkImages, model.images).ok());
+    EXPECT_TRUE(writer->finish().ok());
+    const Status status = link();
+    ASSERT_FALSE(status.ok());
+    EXPECT_EQ(status.error().issue, Issue::meaning_reference);
+    EXPECT_EQ(status.error().file, sandbox / "a.textures.part");
 }
 
 TEST_F(LinkPack, refusesPartsOfDifferentSources)
