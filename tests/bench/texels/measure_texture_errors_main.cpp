@@ -110,7 +110,8 @@ bool isWarned(const std::string& messages, const std::string& place)
 {
     std::istringstream lines(messages);
     for (std::string line; std::getline(lines, line);)
-        if (line.find(": " + place + ": ") != std::string::npos && line.find("[W1309]") != std::string::npos)
+        if (line.find("|" + place + ": warning: ") != std::string::npos &&
+            line.find("[W1309]") != std::string::npos)
             return true;
     return false;
 }
