@@ -113,6 +113,19 @@ StripeError makeStripeError(const PlainImage& image)
     return {.sum = ErrorSum(image.role, image.channels), .smooth = ErrorSum(image.role, image.channels)};
 }
 
+/// Add the texels of rows of a mip that lie in smooth cells.
+void addSmooth(const SmoothCells& smooth, uint32_t width, uint32_t first_row,
+               std::span<const DecodedTexel> plain, std::span<const DecodedTexel> read, ErrorSum& sum)
+{
+    for (size_t row = 0; row * width < plain.size(); ++row)
+        for (uint32_t x = 0; x < width; x += kCellSide)
+            if (smooth.contains(x, first_row + row))
+            {
+                const size_t at = row * width + x, count = std::min(kCellSide, width - x);
+                sum.add(plain.subspan(at, count), read.subspan(at, count));
+            }
+}
+
 StripeError measureStripe(const PlainImage& image, std::span<const SmoothCells> smooth,
                           const Candidate& candidate, const Stripe& stripe,
                           std::span<const std::byte> encoded)
@@ -126,17 +139,17 @@ StripeError measureStripe(const PlainImage& image, std::span<const SmoothCells> 
         texel = readStored(candidate, texel);
     error.sum.add(plain, read);
     if (!smooth.empty())
-        for (size_t i = 0; i < plain.size(); ++i)
-            if (smooth[stripe.mip].contains(i % width, stripe.first_row + i / width))
-                error.smooth.add(std::span(plain).subspan(i, 1), std::span(read).subspan(i, 1));
+        addSmooth(smooth[stripe.mip], width, stripe.first_row, plain, read, error.smooth);
     if (stripe.mip == 0)
     {
         error.histogram.resize(kErrorSteps);
         const double scale = (kErrorSteps - 1) / maxTexelError(image.role);
         for (size_t i = 0; i < plain.size(); ++i)
         {
-            const double steps = std::ceil(texelError(image.role, image.channels, plain[i], read[i]) * scale);
-            ++error.histogram[static_cast<size_t>(std::min(steps, kErrorSteps - 1.0))];
+            const double steps = texelError(image.role, image.channels, plain[i], read[i]) * scale;
+            const auto below = static_cast<size_t>(std::min(steps, kErrorSteps - 1.0));
+            ++error
+                  .histogram[below + (static_cast<double>(below) < steps && below + 1 < kErrorSteps ? 1 : 0)];
         }
     }
     if ((image.record.flags & kImageAlphaTested) != 0)

@@ -15,14 +15,13 @@ using namespace formats;
 namespace
 {
 
-constexpr uint32_t kSide = 4;
 constexpr uint64_t kMinSmoothPart = 2; // one of so many cells is smooth
 constexpr int kMaxSpan = 4 * 257;      // of 65535
 
 /// Return whether no channel that is read spans more than kMaxSpan in a cell.
 bool isFlat(std::span<const DecodedTexel> texels, uint32_t width, Channels channels, uint64_t column)
 {
-    const uint64_t begin = column * kSide, end = std::min<uint64_t>(begin + kSide, width);
+    const uint64_t begin = column * kCellSide, end = std::min<uint64_t>(begin + kCellSide, width);
     for (uint32_t c = 0; c < 4; ++c)
     {
         if (!has(channels, c))
@@ -49,9 +48,9 @@ std::vector<uint8_t> findFlatCells(const PlainImage& image, uint32_t mip, uint64
     tbb::parallel_for(uint64_t{0}, rows,
                       [&](uint64_t row)
                       {
-                          const auto y = static_cast<uint32_t>(row) * kSide;
+                          const auto y = static_cast<uint32_t>(row) * kCellSide;
                           const std::vector<DecodedTexel> texels =
-                              decodeRows(image, mip, y, std::min(kSide, extent.height - y));
+                              decodeRows(image, mip, y, std::min(kCellSide, extent.height - y));
                           for (uint64_t column = 0; column < columns; ++column)
                               is_flat[row * columns + column] =
                                   isFlat(texels, extent.width, image.channels, column);
@@ -64,8 +63,10 @@ std::vector<uint8_t> findFlatCells(const PlainImage& image, uint32_t mip, uint64
 SmoothCells::SmoothCells(const PlainImage& image, uint32_t mip)
 {
     const MipExtent extent = mipExtent(image.record, mip);
-    columns_ = (uint64_t{extent.width} + kSide - 1) / kSide;
-    const uint64_t rows = (uint64_t{extent.height} + kSide - 1) / kSide;
+    width_ = extent.width;
+    height_ = extent.height;
+    columns_ = (uint64_t{extent.width} + kCellSide - 1) / kCellSide;
+    const uint64_t rows = (uint64_t{extent.height} + kCellSide - 1) / kCellSide;
     const std::vector<uint8_t> is_flat = findFlatCells(image, mip, columns_, rows);
     is_smooth_.resize(is_flat.size());
     for (uint64_t row = 0; row < rows; ++row)
@@ -83,6 +84,16 @@ SmoothCells::SmoothCells(const PlainImage& image, uint32_t mip)
 uint64_t SmoothCells::countSmooth() const
 {
     return static_cast<uint64_t>(std::ranges::count(is_smooth_, uint8_t{1}));
+}
+
+uint64_t SmoothCells::countSmoothTexels() const
+{
+    uint64_t count = 0;
+    for (uint64_t cell = 0; cell < is_smooth_.size(); ++cell)
+        if (is_smooth_[cell] != 0)
+            count += std::min<uint64_t>(kCellSide, width_ - cell % columns_ * kCellSide) *
+                     std::min<uint64_t>(kCellSide, height_ - cell / columns_ * kCellSide);
+    return count;
 }
 
 std::vector<SmoothCells> findSmoothCells(const PlainImage& image)

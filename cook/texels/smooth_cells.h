@@ -11,6 +11,9 @@
 namespace hearth::texels
 {
 
+/// Texels of a side of a cell.
+inline constexpr uint32_t kCellSide = 4;
+
 /// Cells of 4 x 4 texels of a mip, from its corner on. A cell is smooth if no channel that is read spans more
 /// than 4 of 255 codes in it, nor in any of the eight cells around it: an edge hides errors beside it.
 class SmoothCells
@@ -19,12 +22,18 @@ public:
     SmoothCells(const PlainImage& image, uint32_t mip);
 
     /// True if the texel lies in a smooth cell.
-    bool contains(uint64_t x, uint64_t y) const { return is_smooth_[y / 4 * columns_ + x / 4] != 0; }
+    bool contains(uint64_t x, uint64_t y) const
+    {
+        return is_smooth_[y / kCellSide * columns_ + x / kCellSide] != 0;
+    }
 
     uint64_t countSmooth() const;
     uint64_t count() const { return is_smooth_.size(); }
+    /// Return the number of texels in smooth cells.
+    uint64_t countSmoothTexels() const;
 
 private:
+    uint32_t width_, height_; ///< of the mip
     uint64_t columns_;
     std::vector<uint8_t> is_smooth_; ///< [row of cells * columns_ + column]
 };

@@ -60,28 +60,41 @@ void ErrorSum::add(std::span<const DecodedTexel> plain, std::span<const DecodedT
 {
     HEARTH_ASSERT(plain.size() == stored.size());
     count_ += plain.size();
-    for (size_t i = 0; i < plain.size(); ++i)
-    {
-        if (role_ == ImageRole::normal)
+    if (role_ == ImageRole::normal)
+        for (size_t i = 0; i < plain.size(); ++i)
         {
             const double angle = angleBetween(plain[i], stored[i]);
             real_[0] += angle * angle;
-            continue;
         }
-        if (role_ == ImageRole::light)
-        {
+    else if (role_ == ImageRole::light)
+        for (size_t i = 0; i < plain.size(); ++i)
             for (uint32_t c = 0; c < 3; ++c)
             {
                 const double difference = stops(plain[i][c]) - stops(stored[i][c]);
                 real_[c] += difference * difference;
             }
-            continue;
-        }
-        const std::array<int64_t, 4> a = codes(role_, plain[i]), b = codes(role_, stored[i]);
+    else if (role_ == ImageRole::cutout)
+        addCodes(plain, stored, weightByAlpha);
+    else
+        addCodes(plain, stored, [](const DecodedTexel& texel) { return texel; });
+}
+
+template <typename Codes>
+void ErrorSum::addCodes(std::span<const DecodedTexel> plain, std::span<const DecodedTexel> stored,
+                        const Codes& codes)
+{
+    std::array<uint64_t, 4> sums{};
+    for (size_t i = 0; i < plain.size(); ++i)
+    {
+        const auto a = codes(plain[i]), b = codes(stored[i]);
         for (uint32_t c = 0; c < 4; ++c)
-            if (has(channels_, c))
-                whole_[c] += static_cast<uint64_t>((a[c] - b[c]) * (a[c] - b[c]));
+        {
+            const auto difference = static_cast<uint32_t>(a[c] < b[c] ? b[c] - a[c] : a[c] - b[c]);
+            sums[c] += uint64_t{difference} * difference;
+        }
     }
+    for (uint32_t c = 0; c < 4; ++c)
+        whole_[c] += has(channels_, c) ? sums[c] : 0;
 }
 
 void ErrorSum::add(const ErrorSum& other)
@@ -105,12 +118,19 @@ std::array<double, 4> ErrorSum::meanSquares() const
 
 double combineMips(ImageRole role, Channels channels, std::span<const ErrorSum> mips)
 {
-    const auto counted_mips =
-        static_cast<double>(std::ranges::count_if(mips, [](const ErrorSum& mip) { return mip.count() > 0; }));
-    std::array<double, 4> means{};
+    std::vector<std::array<double, 4>> squares;
     for (const ErrorSum& mip : mips)
-        for (uint32_t c = 0; c < 4 && mip.count() > 0; ++c)
-            means[c] += mip.meanSquares()[c] / counted_mips;
+        if (mip.count() > 0)
+            squares.push_back(mip.meanSquares());
+    return combineMips(role, channels, squares);
+}
+
+double combineMips(ImageRole role, Channels channels, std::span<const std::array<double, 4>> mips)
+{
+    std::array<double, 4> means{};
+    for (const std::array<double, 4>& mip : mips)
+        for (uint32_t c = 0; c < 4; ++c)
+            means[c] += mip[c] / static_cast<double>(mips.size());
     if (role == ImageRole::normal)
         return std::sqrt(means[0]);
     if (role == ImageRole::data)

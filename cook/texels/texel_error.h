@@ -38,6 +38,11 @@ public:
     std::array<double, 4> meanSquares() const;
 
 private:
+    /// codes  tells the four numbers of a texel whose differences count
+    template <typename Codes>
+    void addCodes(std::span<const formats::DecodedTexel> plain, std::span<const formats::DecodedTexel> stored,
+                  const Codes& codes);
+
     formats::ImageRole role_;
     Channels channels_;
     uint64_t count_ = 0;
@@ -48,6 +53,9 @@ private:
 /// Return the error of an image: the root of the mean over its mips, of data of its worst channel. Mips
 /// without texels do not count; 0 if none has any.
 double combineMips(formats::ImageRole role, Channels channels, std::span<const ErrorSum> mips);
+
+/// The same of mips with texels, by the mean squares of their channels, as ErrorSum::meanSquares.
+double combineMips(formats::ImageRole role, Channels channels, std::span<const std::array<double, 4>> mips);
 
 /// Return the error of one texel: its largest difference of a channel, or its angle, or stops.
 double texelError(formats::ImageRole role, Channels channels, const formats::DecodedTexel& plain,

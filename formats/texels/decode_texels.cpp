@@ -48,6 +48,8 @@ void decodeBlockRow(const TexelFormatTraits& traits, uint32_t width, uint32_t he
 {
     HEARTH_RUNTIME_ASSERT(row.size() == mipBytes(traits, width, 1) && height <= traits.block_height &&
                           texels.size() == size_t{width} * height);
+    if (traits.family == TexelFamily::plain)
+        return decodePlainRow(traits.format, row, texels);
     std::array<DecodedTexel, kMaxBlockTexels> block;
     for (uint32_t x = 0; x < width; x += traits.block_width)
     {

@@ -15,4 +15,8 @@ namespace hearth::formats
 /// texel  block_bytes of the format
 DecodedTexel decodePlainTexel(TexelFormat format, std::span<const std::byte> texel);
 
+/// Decode a row of such texels.
+/// row  of texels.size() texels
+void decodePlainRow(TexelFormat format, std::span<const std::byte> row, std::span<DecodedTexel> texels);
+
 } // namespace hearth::formats
