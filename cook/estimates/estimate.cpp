@@ -2,6 +2,7 @@
 #include "cook/estimates/estimate.h"
 
 #include "cook/json/json.h"
+#include "cook/texels/error_estimate.h"
 #include "cook/texels/texel_source.h"
 #include "cook/tools/sha256.h"
 
@@ -37,7 +38,7 @@ std::string hashContent(const PlainImage& image)
 EstimatedImage estimateImage(const LoadedImage& loaded, const Request& request)
 {
     const PlainImage& image = loaded.image;
-    const std::vector<SmoothCells> smooth = findSmoothCells(image);
+    const ImageDetail detail(image);
     EstimatedImage estimated{.name = loaded.name, .content = hashContent(image)};
     for (const Candidate& candidate : request.candidates)
     {
@@ -51,7 +52,8 @@ EstimatedImage estimateImage(const LoadedImage& loaded, const Request& request)
         // a single one costs the same whatever the budget
         if (request.candidates.size() > 1)
             estimated.formats.back().cost =
-                findCost(image, estimateError(image, smooth, candidate, request.effort), request.target);
+                findCost(image, estimateError(image, detail, candidate, request.effort, SampleSize::large),
+                         request.target);
     }
     return estimated;
 }

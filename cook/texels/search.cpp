@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/texels/search.h"
 
+#include "cook/texels/error_estimate.h"
 #include "cook/texels/match_coverage.h"
 #include "formats/base/assert.h"
-#include "formats/texels/decode_texels.h"
-#include "formats/texels/plain_decoder.h"
-
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -19,157 +16,21 @@ using namespace formats;
 namespace
 {
 
-// A 32nd of the blocks of a mip is encoded for an estimate, within bounds, so that five estimates take less
-// than a fifth of an encoding.
-constexpr uint64_t kSampledPart = 32;
+// A miss costs an encoding. So a candidate whose estimate is less than 1.5 dB better than the target is
+// estimated again from more blocks, and is encoded if that estimate is .15 dB better.
+constexpr double kSureShare = 0.841;
+constexpr double kLargeSampleMargin = 0.983;
 
-/// Bounds of the number of sampled blocks of a mip.
-struct SampleBounds
-{
-    uint64_t low;
-    uint64_t high;
-};
-constexpr SampleBounds kFinestBounds{256, 1024}, kCoarserBounds{64, 256};
+// Power of the bits by which errors fall: the usual one, and the least that a guess believes. The share that
+// stands for an error of 0, which has no logarithm.
+constexpr double kUsualSlope = -1.2, kFlattestSlope = -0.3, kMinShare = 1e-3;
 
-// Blocks in a row of the image that sampled blocks are put into, and rows that a thread encodes at a time.
-constexpr uint32_t kMosaicColumns = 32;
-constexpr uint32_t kMosaicRows = 4;
-
-// An estimate that is better than the target by .3 dB holds it nearly always; a miss costs an encoding.
-constexpr double kEstimateMargin = 0.966;
+// A candidate may hold the target although the next one, with more bits, does not: ETC2 is up to a third
+// worse than its neighbours.
+constexpr double kNearShare = 1.35;
 
 // Candidates with the most bytes, one of which an image gets that misses its target in all.
 constexpr size_t kLastResorts = 3;
-
-/// Blocks of a mip that are encoded for an estimate, by their numbers, ascending.
-std::vector<uint64_t> sampleBlocks(uint64_t columns, uint64_t rows, const SampleBounds& bounds)
-{
-    std::vector<uint64_t> blocks;
-    const uint64_t total = columns * rows;
-    const uint64_t wanted = std::clamp(total / kSampledPart, bounds.low, bounds.high);
-    if (total <= wanted)
-    {
-        for (uint64_t block = 0; block < total; ++block)
-            blocks.push_back(block);
-        return blocks;
-    }
-    // one in each cell of a grid over the mip, at a place that wanders through the cell: a regular step would
-    // meet the same place of a pattern again and again
-    const double cell = std::sqrt(static_cast<double>(total) / static_cast<double>(wanted));
-    const auto across = std::max<uint64_t>(static_cast<uint64_t>(static_cast<double>(columns) / cell), 1);
-    const auto down = std::max<uint64_t>(wanted / across, 1);
-    for (uint64_t j = 0; j < down; ++j)
-        for (uint64_t i = 0; i < across; ++i)
-        {
-            constexpr double kPlastic = 0.7548776662466927, kPlasticSquared = 0.5698402909980532;
-            const auto n = static_cast<double>(j * across + i + 1);
-            const double u = n * kPlastic - std::floor(n * kPlastic);
-            const double v = n * kPlasticSquared - std::floor(n * kPlasticSquared);
-            const auto x = static_cast<uint64_t>((static_cast<double>(i) + u) * static_cast<double>(columns) /
-                                                 static_cast<double>(across));
-            const auto y = static_cast<uint64_t>((static_cast<double>(j) + v) * static_cast<double>(rows) /
-                                                 static_cast<double>(down));
-            blocks.push_back(std::min(y, rows - 1) * columns + std::min(x, columns - 1));
-        }
-    return blocks;
-}
-
-/// Part of a mosaic, a few rows of sampled blocks side by side. Texels beyond the edge of the mip repeat the
-/// edge, and do not count in the error.
-struct Mosaic
-{
-    uint32_t width = 0, height = 0;
-    std::vector<DecodedTexel> texels{};
-    std::vector<uint8_t> counts{};    ///< 1: the texel is inside the mip
-    std::vector<uint8_t> is_smooth{}; ///< 1: it lies in a smooth cell
-};
-
-Mosaic makeMosaic(const PlainImage& image, std::span<const SmoothCells> smooth, uint32_t mip,
-                  const TexelFormatTraits& traits, std::span<const uint64_t> blocks)
-{
-    const TexelFormatTraits& plain = *findTexelFormat(image.record.format);
-    const std::span<const std::byte> texels = mipBytes(image, mip);
-    const MipExtent extent = mipExtent(image.record, mip);
-    const uint32_t bw = traits.block_width, bh = traits.block_height;
-    const uint64_t columns = (extent.width + bw - 1) / bw;
-    const auto rows = static_cast<uint32_t>((blocks.size() + kMosaicColumns - 1) / kMosaicColumns);
-    const auto across = static_cast<uint32_t>(std::min<size_t>(blocks.size(), kMosaicColumns));
-    Mosaic mosaic{.width = across * bw, .height = rows * bh};
-    mosaic.texels.resize(size_t{mosaic.width} * mosaic.height);
-    mosaic.counts.resize(mosaic.texels.size());
-    mosaic.is_smooth.resize(mosaic.texels.size());
-    for (size_t i = 0; i < size_t{rows} * across; ++i)
-    {
-        const uint64_t block = blocks[std::min(i, blocks.size() - 1)];
-        for (uint32_t y = 0; y < bh; ++y)
-            for (uint32_t x = 0; x < bw; ++x)
-            {
-                const uint64_t column = block % columns * bw + x, row = block / columns * bh + y;
-                const uint64_t from = std::min<uint64_t>(row, extent.height - 1) * extent.width +
-                                      std::min<uint64_t>(column, extent.width - 1);
-                const size_t to = (i / across * bh + y) * mosaic.width + i % across * bw + x;
-                mosaic.texels[to] = decodePlainTexel(
-                    plain.format, texels.subspan(from * plain.block_bytes, plain.block_bytes));
-                mosaic.counts[to] = i < blocks.size() && column < extent.width && row < extent.height;
-                mosaic.is_smooth[to] =
-                    mosaic.counts[to] != 0 && !smooth.empty() && smooth[mip].contains(column, row);
-            }
-    }
-    return mosaic;
-}
-
-/// Errors of texels, of all and of the smooth ones.
-struct ErrorSums
-{
-    ErrorSum all;
-    ErrorSum smooth;
-};
-
-ErrorSums measureMosaic(const PlainImage& image, const Candidate& candidate, const Mosaic& mosaic,
-                        Effort effort)
-{
-    const std::vector<std::byte> blocks = encodeTexels(
-        candidate, arrangeChannels(image, candidate, mosaic.width, mosaic.height, mosaic.texels), effort);
-    const std::vector<DecodedTexel> stored =
-        decodeMip(*candidate.traits, mosaic.width, mosaic.height, blocks);
-    ErrorSums sums{ErrorSum(image.role, image.channels), ErrorSum(image.role, image.channels)};
-    for (size_t i = 0; i < stored.size(); ++i)
-        if (mosaic.counts[i] != 0)
-        {
-            const DecodedTexel read = readStored(candidate, stored[i]);
-            sums.all.add({&mosaic.texels[i], 1}, {&read, 1});
-            if (mosaic.is_smooth[i] != 0)
-                sums.smooth.add({&mosaic.texels[i], 1}, {&read, 1});
-        }
-    return sums;
-}
-
-/// Sampled blocks of a mip that a thread encodes at a time.
-struct Piece
-{
-    uint32_t mip;
-    std::vector<uint64_t> blocks;
-};
-
-std::vector<Piece> listPieces(const PlainImage& image, const TexelFormatTraits& traits)
-{
-    constexpr size_t kPiece = size_t{kMosaicColumns} * kMosaicRows;
-    std::vector<Piece> pieces;
-    for (uint32_t mip = 0; mip < countMeasuredMips(image.record); ++mip)
-    {
-        const MipExtent extent = mipExtent(image.record, mip);
-        const std::vector<uint64_t> blocks =
-            sampleBlocks((extent.width + traits.block_width - 1) / traits.block_width,
-                         (extent.height + traits.block_height - 1) / traits.block_height,
-                         mip == 0 ? kFinestBounds : kCoarserBounds);
-        for (size_t at = 0; at < blocks.size(); at += kPiece)
-            pieces.push_back(
-                {mip,
-                 {blocks.begin() + static_cast<ptrdiff_t>(at),
-                  blocks.begin() + static_cast<ptrdiff_t>(std::min(at + kPiece, blocks.size()))}});
-    }
-    return pieces;
-}
 
 /// Return the larger part of its target that an error takes, of all texels or of the smooth ones.
 double findShare(const ImageError& error, const Target& target)
@@ -181,10 +42,10 @@ double findShare(const ImageError& error, const Target& target)
 class Estimates
 {
 public:
-    Estimates(const PlainImage& image, std::span<const SmoothCells> smooth,
-              std::span<const Candidate> candidates, const Target& target, Effort effort)
+    Estimates(const PlainImage& image, const ImageDetail& detail, std::span<const Candidate> candidates,
+              const Target& target, Effort effort)
         : image_(image),
-          smooth_(smooth),
+          detail_(detail),
           candidates_(candidates),
           target_(target),
           effort_(effort),
@@ -195,8 +56,18 @@ public:
     double get(size_t i)
     {
         if (!errors_[i])
-            errors_[i] = estimateError(image_, smooth_, candidates_[i], effort_);
+            errors_[i] = estimateError(image_, detail_, candidates_[i], effort_, SampleSize::usual);
         return findShare(*errors_[i], target_);
+    }
+
+    /// Return true if the candidate is all but sure to hold the target; from a large sample if a usual one
+    /// leaves doubt.
+    bool isSafe(size_t i)
+    {
+        if (get(i) > 1 || get(i) <= kSureShare)
+            return get(i) <= 1;
+        errors_[i] = estimateError(image_, detail_, candidates_[i], effort_, SampleSize::large);
+        return get(i) <= kLargeSampleMargin;
     }
 
     /// Return the estimates that were asked for, in the order of the candidates.
@@ -211,28 +82,46 @@ public:
 
 private:
     const PlainImage& image_;
-    std::span<const SmoothCells> smooth_;
+    const ImageDetail& detail_;
     std::span<const Candidate> candidates_;
     Target target_;
     Effort effort_;
     std::vector<std::optional<ImageError>> errors_;
 };
 
-/// Return the cheapest candidate whose estimate holds the target; their number if none does. Errors mostly
-/// fall with bytes, but not always: the next one below those that bisection has tried is tried, too.
-size_t findCheapest(Estimates& estimates, size_t count)
+/// Guess which of candidates [low, high) is the cheapest that holds the target: where a line through the
+/// nearest estimates, of logarithms of shares over those of bits, meets it.
+size_t guessCheapest(Estimates& estimates, std::span<const Candidate> candidates, size_t low, size_t high)
 {
-    const auto holds = [&](size_t i) { return estimates.get(i) <= kEstimateMargin; };
-    size_t low = 0, high = count;
-    while (low < high)
+    const auto bits = [&](size_t i) { return std::log2(candidates[i].bitsPerTexel()); };
+    const auto share = [&](size_t i) { return std::log2(std::max(estimates.get(i), kMinShare)); };
+    double slope = kUsualSlope;
+    if (low > 0 && high < candidates.size() && bits(high) > bits(low - 1))
+        slope = (share(high) - share(low - 1)) / (bits(high) - bits(low - 1));
+    const size_t known = low > 0 ? low - 1 : high;
+    const double wanted = bits(known) - share(known) / std::min(slope, kFlattestSlope);
+    size_t guess = low;
+    while (guess + 1 < high && bits(guess) < wanted)
+        ++guess;
+    return guess;
+}
+
+/// Return the cheapest candidate whose estimate holds the target; their number if none does. Errors mostly
+/// fall with bytes, but not always: the next one below those that were tried is tried, too, if it may hold.
+size_t findCheapest(Estimates& estimates, std::span<const Candidate> candidates)
+{
+    const auto holds = [&](size_t i) { return estimates.get(i) <= 1; };
+    size_t low = 0, high = candidates.size();
+    for (bool guesses = false; low < high; guesses = !guesses)
     {
-        const size_t middle = (low + high) / 2;
-        if (holds(middle))
-            high = middle;
+        // guesses alone may come near from one side, a candidate at a time
+        const size_t next = guesses ? guessCheapest(estimates, candidates, low, high) : (low + high) / 2;
+        if (holds(next))
+            high = next;
         else
-            low = middle + 1;
+            low = next + 1;
     }
-    return low > 1 && holds(low - 2) ? low - 2 : low;
+    return low > 1 && estimates.get(low - 1) < kNearShare && holds(low - 2) ? low - 2 : low;
 }
 
 /// Encode, measure what is lost, and compare it with the target. The area of a cut-out is kept as far as the
@@ -262,9 +151,9 @@ Encoding encodeBest(const PlainImage& image, std::span<const Candidate> candidat
 {
     const size_t compressed = candidates.size() - 1;
     std::optional<Encoding> best;
-    for (size_t i = findCheapest(estimates, compressed); i < compressed; ++i)
+    for (size_t i = findCheapest(estimates, candidates.first(compressed)); i < compressed; ++i)
     {
-        if (estimates.get(i) > 1)
+        if (!estimates.isSafe(i))
             continue;
         Encoding encoding = encodeMeasured(image, smooth, candidates[i], target, effort);
         if (encoding.share <= 1)
@@ -285,39 +174,15 @@ Encoding encodeBest(const PlainImage& image, std::span<const Candidate> candidat
 
 } // namespace
 
-ImageError estimateError(const PlainImage& image, std::span<const SmoothCells> smooth, Candidate candidate,
-                         Effort effort)
-{
-    candidate.has_smooth_areas = !smooth.empty();
-    const std::vector<Piece> pieces = listPieces(image, *candidate.traits);
-    const ErrorSum none(image.role, image.channels);
-    std::vector<ErrorSums> piece_sums(pieces.size(), {none, none});
-    tbb::parallel_for(size_t{0}, pieces.size(),
-                      [&](size_t i)
-                      {
-                          const Mosaic mosaic =
-                              makeMosaic(image, smooth, pieces[i].mip, *candidate.traits, pieces[i].blocks);
-                          piece_sums[i] = measureMosaic(image, candidate, mosaic, effort);
-                      });
-    std::vector<ErrorSum> all(countMeasuredMips(image.record), none), smooth_sums = all;
-    for (size_t i = 0; i < pieces.size(); ++i)
-    {
-        all[pieces[i].mip].add(piece_sums[i].all);
-        smooth_sums[pieces[i].mip].add(piece_sums[i].smooth);
-    }
-    return {.error = combineMips(image.role, image.channels, all),
-            .smooth = combineMips(image.role, image.channels, smooth_sums)};
-}
-
 Encoding encodeForTarget(const PlainImage& image, std::span<const Candidate> candidates, const Target& target,
                          Effort effort, bool strict)
 {
     HEARTH_ASSERT(!candidates.empty());
-    const std::vector<SmoothCells> smooth = findSmoothCells(image);
     if (candidates.size() == 1)
-        return encodeMeasured(image, smooth, candidates.back(), target, effort);
-    Estimates estimates(image, smooth, candidates.first(candidates.size() - 1), target, effort);
-    Encoding encoding = encodeBest(image, candidates, target, effort, strict, smooth, estimates);
+        return encodeCandidate(image, candidates.back(), target, effort);
+    const ImageDetail detail(image);
+    Estimates estimates(image, detail, candidates.first(candidates.size() - 1), target, effort);
+    Encoding encoding = encodeBest(image, candidates, target, effort, strict, detail.smooth, estimates);
     encoding.estimates = estimates.list();
     return encoding;
 }

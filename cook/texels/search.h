@@ -12,11 +12,6 @@
 namespace hearth::texels
 {
 
-/// Estimate the error of an image in the format of a candidate, and of its smooth texels, from some of its
-/// blocks, spread evenly: 256 to 1024 of mip 0, 64 to 256 of each other mip that counts.
-ImageError estimateError(const PlainImage& image, std::span<const SmoothCells> smooth, Candidate candidate,
-                         Effort effort);
-
 /// Error of a candidate, estimated or measured.
 struct CandidateError
 {

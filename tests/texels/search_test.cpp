@@ -1,5 +1,6 @@
 // The format of an image: its error is what a recount by another decoder says, and holds the target.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/texels/error_estimate.h"
 #include "cook/texels/search.h"
 #include "tests/texels/astc_reference.h"
 #include "tests/texels/test_images.h"
@@ -201,7 +202,9 @@ TEST(TexelSearch, estimatesAreNearTheWhole)
         {
             const double whole =
                 measureError(plain, {}, candidate, encodeImage(plain, candidate, Effort::draft)).error;
-            EXPECT_NEAR(toDecibels(estimateError(plain, {}, candidate, Effort::draft).error),
+            EXPECT_NEAR(toDecibels(estimateError(plain, ImageDetail(plain), candidate, Effort::draft,
+                                                 SampleSize::large)
+                                       .error),
                         toDecibels(whole), 0.45)
                 << candidate.traits->name;
         }
