@@ -14,7 +14,7 @@ namespace hearth::pack
 /// square of the threshold: steps of an eighth do not overshoot, even if feedback is some frames late.
 ///
 /// If the wanted bytes jump from below kLowWatermark to above the budget (levels that switch as a whole), the
-/// factor rests above the jump until the wanted bytes change.
+/// factor rests above the jump until the wanted bytes or the budget change.
 class ErrorScale
 {
 public:
@@ -31,6 +31,9 @@ public:
     {
         const float ratio =
             static_cast<float>(wanted_bytes) / static_cast<float>(std::max<uint64_t>(budget_bytes, 1));
+        if (budget_bytes != budget_bytes_)
+            over_budget_value_ = 0;
+        budget_bytes_ = budget_bytes;
         const float next = std::clamp(value_ * (1 + kGain * std::min(ratio - 1, 1.0f)), 1.0f, kMaxScale);
         if (ratio > 1)
             over_budget_value_ = value_;
@@ -62,6 +65,7 @@ private:
     float over_budget_value_ = 0;  ///< last value at which the wanted bytes exceeded the budget
     uint32_t updates_at_rest_ = 0; ///< updates since the last change of the value
     uint64_t demand_at_rest_ = 0;
+    uint64_t budget_bytes_ = 0; ///< of the last update
 };
 
 } // namespace hearth::pack

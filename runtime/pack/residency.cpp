@@ -37,6 +37,7 @@ Residency::Residency(PageGraph graph, const ResidencyOptions& options)
       options_(options),
       pages_(graph_.pageCount()),
       evictable_(graph_.pageCount()),
+      demand_bytes_(options.budget_bytes),
       bytes_in_use_(graph_.pinnedBytes())
 {
     for (const uint32_t page : graph_.pinned())
@@ -188,6 +189,7 @@ std::span<const uint32_t> Residency::schedule()
         if (evictable_.contains(page))
             evictable_.update(page, evictionKey(pages_[page].priority, round_));
     measureDemand();
+    evictExcess();
     startLoads();
     ++round_;
     return started_;
@@ -208,15 +210,24 @@ void Residency::measureDemand()
         if (!wanted.blocked && !graph_.isPinned(page) && wanted.priority > 1)
             bytes += graph_.sizeBytes(page);
     }
-    error_scale_.update(bytes, options_.budget_bytes);
+    error_scale_.update(bytes, demand_bytes_);
+}
+
+/// Evict the least worth until what stays fits the budget, as far as it is not loading.
+void Residency::evictExcess()
+{
+    while (bytes_in_use_ - evicting_bytes_ > options_.budget_bytes && !evictable_.empty())
+        evict(evictable_.front());
 }
 
 void Residency::startLoads()
 {
     started_.clear();
-    uint64_t free = options_.budget_bytes - bytes_in_use_;
+    if (bytes_in_use_ - evicting_bytes_ > options_.budget_bytes)
+        return;
+    uint64_t free = options_.budget_bytes - std::min(options_.budget_bytes, bytes_in_use_);
     /// free now or soon, less the memory for pages that come before in this order
-    uint64_t unpromised = free + evicting_bytes_;
+    uint64_t unpromised = options_.budget_bytes + evicting_bytes_ - bytes_in_use_;
     uint32_t loads_left = options_.max_loads - loads_in_flight_;
     for (const uint32_t page : wanted_)
     {
@@ -283,6 +294,13 @@ void Residency::dropLoad(uint32_t page, State state)
     pages_[page].state = state;
     bytes_in_use_ -= graph_.sizeBytes(page);
     unclaimNeeded(page);
+}
+
+void Residency::setBudget(uint64_t bytes, uint64_t demand_bytes)
+{
+    HEARTH_ASSERT(bytes >= graph_.pinnedBytes() && demand_bytes >= graph_.pinnedBytes());
+    options_.budget_bytes = bytes;
+    demand_bytes_ = demand_bytes;
 }
 
 void Residency::retryFailed()

@@ -44,7 +44,8 @@ struct FrameChanges
 };
 
 /// Streaming policy. Invariants: the resident set is closed (see PageGraph), also after each step of
-/// FrameChanges; it includes the pinned pages; the bytes never exceed the budget. Deterministic: equal calls
+/// FrameChanges; it includes the pinned pages; the bytes never exceed the budget, unless it was just made
+/// smaller, and then they only fall. Deterministic: equal calls
 /// give equal results. A frame takes O((requests + the pages that they need + loads) log pages), whatever the
 /// number of pages, and allocates nothing once each list has reached its maximum length.
 ///
@@ -85,6 +86,13 @@ public:
     /// page  was returned by schedule and has not ended yet (asserted)
     void completed(uint32_t page, bool ok);
 
+    /// Change the budget. Bytes beyond a smaller one are evicted from the next schedule on, least worth first,
+    /// whether or not they are wanted; until they are released, nothing is loaded.
+    /// bytes         at least those of the pinned pages (asserted)
+    /// demand_bytes  budget that errorScale() fits the wanted pages to: another than `bytes` where that one
+    ///               holds for a few frames only
+    void setBudget(uint64_t bytes, uint64_t demand_bytes);
+
     /// Allow failed pages to be loaded again, once they are requested.
     void retryFailed();
 
@@ -105,6 +113,7 @@ public:
 
     /// Return the bytes that count against the budget now.
     uint64_t bytesInUse() const { return bytes_in_use_; }
+    uint64_t budgetBytes() const { return options_.budget_bytes; }
     const PageGraph& graph() const { return graph_; }
 
 private:
@@ -160,6 +169,7 @@ private:
     void collectWanted();
     void addWanted(uint32_t page, float priority);
     void measureDemand();
+    void evictExcess();
     void startLoads();
 
     bool allNeedsIn(uint32_t page, auto... states) const;
@@ -180,6 +190,7 @@ private:
     std::vector<Page> pages_;
     EvictionQueue evictable_; ///< resident, not pinned, no dependents
     ErrorScale error_scale_;
+    uint64_t demand_bytes_; ///< budget of the error scale
     uint64_t serial_ = 0;
     uint64_t completed_serial_ = 0;
     uint64_t round_ = 1; ///< round of requests; ends with schedule

@@ -119,6 +119,7 @@ std::vector<uint32_t> ResidencyModel::schedule()
         pages_[page].round = round_;
     }
     std::sort(order.begin(), order.end());
+    evictExcess();
 
     std::vector<uint32_t> started;
     uint64_t promised = 0;
@@ -167,6 +168,19 @@ std::vector<uint32_t> ResidencyModel::schedule()
     requests_.clear();
     ++round_;
     return started;
+}
+
+/// Evict what a smaller budget does not hold, one page after the other.
+void ResidencyModel::evictExcess()
+{
+    while (sumBytes(pages_, {State::resident, State::loading, State::loaded}) > options_.budget_bytes)
+    {
+        const uint32_t victim = leastWorth(pages_);
+        if (victim == kInvalidIndex)
+            return;
+        pages_[victim].state = State::leaving;
+        leaving_.push_back(victim);
+    }
 }
 
 void ResidencyModel::completed(uint32_t page, bool ok)

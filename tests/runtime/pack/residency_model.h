@@ -31,6 +31,7 @@ public:
     std::vector<uint32_t> schedule();
     void completed(uint32_t page, bool ok);
     void retryFailed();
+    void setBudget(uint64_t bytes) { options_.budget_bytes = bytes; }
 
     uint64_t bytesInUse() const;
 
@@ -59,6 +60,7 @@ private:
     uint64_t sumBytes(const Pages& pages, std::initializer_list<State> states) const;
     bool needsAre(const Pages& pages, uint32_t page, std::initializer_list<State> states) const;
     bool hasDependents(const Pages& pages, uint32_t page) const;
+    void evictExcess();
     double worth(const Page& page) const;
     /// Page to evict next, or none.
     uint32_t leastWorth(const Pages& pages) const;

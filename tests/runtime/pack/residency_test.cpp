@@ -269,6 +269,8 @@ TEST(Streaming, keepsItsPromisesThroughRandomHistories)
                 requests = randomRequests(random, nodes.size());
             if (random() % 16 == 0)
                 caller.retryFailed();
+            if (random() % 12 == 0 && seed % 2 == 1)
+                caller.setBudget(randomOptions(random, nodes).budget_bytes);
             caller.frame(random() % 8 == 0 ? Requests{} : requests);
         }
         starts += caller.startCount();

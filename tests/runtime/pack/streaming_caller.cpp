@@ -27,7 +27,8 @@ StreamingCaller::StreamingCaller(const std::vector<pack::PageNode>& nodes,
       random_(seed),
       residency_(makeResidency(nodes, options)),
       model_(nodes, options),
-      resident_(nodes.size(), 0)
+      resident_(nodes.size(), 0),
+      max_bytes_(options.budget_bytes)
 {
     for (const uint32_t page : residency_.graph().pinned())
         publish(page);
@@ -67,6 +68,14 @@ void StreamingCaller::retryFailed()
 {
     residency_.retryFailed();
     model_.retryFailed();
+}
+
+void StreamingCaller::setBudget(uint64_t bytes)
+{
+    residency_.setBudget(bytes, bytes);
+    model_.setBudget(bytes);
+    options_.budget_bytes = bytes;
+    max_bytes_ = std::max(bytes, residency_.bytesInUse());
 }
 
 void StreamingCaller::mend()
@@ -167,7 +176,7 @@ void StreamingCaller::endLoads()
     }
 }
 
-void StreamingCaller::expectBytesInBudget() const
+void StreamingCaller::expectBytesInBudget()
 {
     uint64_t bytes = 0;
     for (uint32_t page = 0; page < nodes_.size(); ++page)
@@ -176,7 +185,8 @@ void StreamingCaller::expectBytesInBudget() const
             bytes += nodes_[page].size_bytes;
     EXPECT_EQ(residency_.bytesInUse(), bytes);
     EXPECT_EQ(model_.bytesInUse(), bytes);
-    EXPECT_LE(bytes, options_.budget_bytes);
+    EXPECT_LE(bytes, max_bytes_);
+    max_bytes_ = std::max(options_.budget_bytes, std::min(max_bytes_, bytes));
 }
 
 std::vector<pack::PageNode> randomPages(std::mt19937& random, uint32_t most_pages)

@@ -41,6 +41,7 @@ public:
     uint32_t settle(const Requests& requests, uint32_t most = 2000, uint32_t quiet = 20);
 
     void retryFailed();
+    void setBudget(uint64_t bytes);
 
     /// Let no load fail from now on.
     void mend();
@@ -58,7 +59,7 @@ private:
     void publish(uint32_t page);
     void startLoads(const std::vector<uint32_t>& pages);
     void endLoads();
-    void expectBytesInBudget() const;
+    void expectBytesInBudget();
     uint32_t roll(uint32_t end) { return static_cast<uint32_t>(random_() % end); }
 
     std::vector<pack::PageNode> nodes_;
@@ -73,6 +74,7 @@ private:
     std::map<uint32_t, uint64_t> held_;  ///< evicted page -> last frame that reads it
     std::map<uint32_t, uint32_t> failure_count_of_page_, ended_badly_;
     uint64_t serial_ = 0, completed_serial_ = 0;
+    uint64_t max_bytes_; ///< the budget, or after it has shrunk what is still in use
     uint64_t start_count_ = 0, eviction_count_ = 0;
 };
 
