@@ -278,8 +278,8 @@ typedef struct hearth_scene_options
     /* Largest number of clusters of a frame, 1 to 33554430, 8 bytes each; more are counted and not drawn
      * (hearth_frame_counters). */
     uint32_t max_visible_clusters;
-    /* Bytes of geometry and textures on the device; `read` streams pages and mips on demand. 0: all is
-     * resident, at most 512 MiB of geometry. */
+    /* Bytes of geometry and textures on the device; `read` streams pages and mips on demand. They move between
+     * both by what the frames need. 0: all is resident, at most 512 MiB of geometry. */
     uint64_t memory_budget;
     /* Needed with a budget. Before the scene is destroyed all reads must have ended or been cancelled. */
     hearth_read_page_callback read;
@@ -353,7 +353,7 @@ typedef struct hearth_stream_counters
 {
     uint32_t struct_size;
     float error_scale;       /* factor on error thresholds: above 1 if the needed pages exceed the budget */
-    uint64_t budget_bytes;   /* rounded down to the bytes that pages can use */
+    uint64_t budget_bytes;   /* share of geometry now, rounded down to the bytes that pages can use */
     uint64_t bytes_in_use;   /* of the budget */
     uint64_t bytes_resident; /* of decoded pages */
     uint64_t bytes_streamed; /* so far */
@@ -363,7 +363,7 @@ typedef struct hearth_stream_counters
     uint32_t failures;        /* so far */
     uint32_t failed_page_count;
     const uint32_t* failed_pages; /* failures that the last begin_frame saw, each once; until the next one */
-    /* Textures, 0 if none are streamed: the share of the budget, and what they take of it. */
+    /* Textures, 0 if none are streamed: their share of the budget now, and what they take of it. */
     uint64_t texture_budget_bytes;
     uint64_t texture_bytes_in_use;
     uint64_t texture_bytes_on_device; /* at most texture_bytes_in_use */

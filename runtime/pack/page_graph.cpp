@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 namespace hearth::pack
@@ -133,6 +134,11 @@ PageGraph PageGraph::of(const PackView& view)
     addSetDependencies(view, pages_of_set, nodes);
     requestWholeSets(pages_of_set, nodes);
     return PageGraph(nodes);
+}
+
+uint64_t PageGraph::streamedBytes() const
+{
+    return std::accumulate(sizes_bytes_.begin(), sizes_bytes_.end(), uint64_t{0}) - pinned_bytes_;
 }
 
 PageGraph PageGraph::withSlotSize(uint32_t slot_bytes) const

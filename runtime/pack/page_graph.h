@@ -49,6 +49,7 @@ public:
     std::span<const uint32_t> pinned() const { return pinned_; }
     bool isPinned(uint32_t page) const { return is_pinned_[page]; }
     uint64_t pinnedBytes() const { return pinned_bytes_; }
+    uint64_t streamedBytes() const; ///< of the other pages
 
 private:
     /// A list of pages for each page.

@@ -8,27 +8,6 @@
 namespace hearth::pack
 {
 
-namespace
-{
-
-/// Return a stack of 0 .. count - 1, with 0 on top.
-std::vector<uint32_t> makeStack(uint32_t count)
-{
-    std::vector<uint32_t> stack(count);
-    std::iota(stack.rbegin(), stack.rend(), 0u);
-    return stack;
-}
-
-uint32_t pop(std::vector<uint32_t>& stack)
-{
-    HEARTH_ASSERT(!stack.empty());
-    const uint32_t top = stack.back();
-    stack.pop_back();
-    return top;
-}
-
-} // namespace
-
 Result<PageStream> PageStream::create(const formats::PackView& view, PageGraph graph,
                                       const PageStreamOptions& options, std::span<std::byte> staging)
 {
@@ -49,7 +28,8 @@ PageStream::PageStream(const formats::PackView& view, Residency residency, const
       queue_(std::make_unique<CompletionQueue>(options.residency.max_loads)),
       slot_of_page_(view.pages().size(), kInvalidIndex),
       staging_of_page_(view.pages().size(), kInvalidIndex),
-      free_slots_(makeStack(options.slot_count)),
+      slots_(options.slot_count, options.movable_parts, options.part_slots),
+      demand_slots_(options.slot_count),
       staging_slots_(static_cast<uint32_t>(staging.size() / options.slot_bytes))
 {
     for (const uint32_t page : residency_.graph().pinned())
@@ -61,7 +41,6 @@ PageStream::PageStream(const formats::PackView& view, Residency residency, const
     groups_.clearChanges();
     pending_reads_.reserve(options.residency.max_loads);
     uploads_.reserve(options.residency.max_loads);
-    statistics_.budget_bytes = options.residency.budget_bytes;
     updateStatistics();
 }
 
@@ -88,9 +67,10 @@ StreamChanges PageStream::beginFrame(uint64_t serial, uint64_t completed_serial)
     statistics_.failures += static_cast<uint32_t>(changes.failed.size());
     if (!changes.evicted.empty() || !changes.published.empty())
         changed_serial_ = serial;
+    movePages();
     startReads();
     updateStatistics();
-    return {uploads_, groups_.changes(), changes.failed};
+    return {uploads_, moves_, groups_.changes(), changes.failed};
 }
 
 void PageStream::takeCompletions(uint64_t serial)
@@ -103,6 +83,8 @@ void PageStream::takeCompletions(uint64_t serial)
         if (ok)
         {
             uploads_.push_back({page, slot_of_page_[page], staging_slot});
+            if (!slots_.isOpen(slots_.part(slot_of_page_[page])))
+                leaving_serial_ = serial;
             staging_slots_.giveBackAfter(staging_slot, serial);
             statistics_.bytes_streamed += view_->pages()[page].size;
         }
@@ -117,7 +99,57 @@ void PageStream::takeCompletions(uint64_t serial)
 
 void PageStream::freeSlot(uint32_t page)
 {
-    free_slots_.push_back(std::exchange(slot_of_page_[page], kInvalidIndex));
+    slots_.giveBack(std::exchange(slot_of_page_[page], kInvalidIndex));
+}
+
+/// Move resident pages out of parts that are being closed, once the others have room for all of them. Pages
+/// that are loading follow when they are resident.
+void PageStream::movePages()
+{
+    moves_.clear();
+    std::erase_if(closing_parts_, [&](uint32_t part) { return slots_.usedSlots(part) == 0; });
+    if (closing_parts_.empty() || residency_.bytesInUse() > residency_.budgetBytes())
+        return;
+    for (uint32_t page = 0; page < slot_of_page_.size(); ++page)
+    {
+        const uint32_t from = slot_of_page_[page];
+        if (from == kInvalidIndex || slots_.isOpen(slots_.part(from)) || !residency_.isResident(page))
+            continue;
+        slot_of_page_[page] = slots_.take();
+        slots_.giveBack(from);
+        moves_.push_back({page, from, slot_of_page_[page]});
+        leaving_serial_ = serial_;
+    }
+}
+
+void PageStream::openPart(uint32_t part, uint32_t slots)
+{
+    slots_.open(part, slots);
+    updateBudget();
+}
+
+void PageStream::closePart(uint32_t part)
+{
+    slots_.close(part);
+    closing_parts_.push_back(part);
+    updateBudget();
+}
+
+void PageStream::setDemandSlots(uint32_t slots)
+{
+    if (slots == demand_slots_)
+        return;
+    demand_slots_ = slots;
+    updateBudget();
+}
+
+void PageStream::updateBudget()
+{
+    const uint64_t pinned = residency_.graph().pinnedBytes();
+    residency_.setBudget(pinned + uint64_t{slots_.openSlots()} * options_.slot_bytes,
+                         pinned + uint64_t{demand_slots_} * options_.slot_bytes);
+    changed_serial_ = serial_;
+    updateStatistics();
 }
 
 void PageStream::request(uint32_t page, float priority)
@@ -133,7 +165,7 @@ void PageStream::schedule(uint64_t feedback_serial)
         changed_serial_ = serial_;
     for (const uint32_t page : started)
     {
-        slot_of_page_[page] = pop(free_slots_);
+        slot_of_page_[page] = slots_.take();
         pending_reads_.push_back(page);
     }
     if (residency_.atRest() && feedback_serial >= changed_serial_)
@@ -160,6 +192,7 @@ void PageStream::startReads()
 void PageStream::updateStatistics()
 {
     statistics_.bytes_in_use = residency_.bytesInUse();
+    statistics_.budget_bytes = std::max(residency_.budgetBytes(), statistics_.bytes_in_use);
     statistics_.error_scale = residency_.errorScale();
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "runtime/pack/completion_queue.h"
+#include "runtime/pack/page_slots.h"
 #include "runtime/pack/residency.h"
 #include "runtime/pack/resident_groups.h"
 #include "runtime/pack/staging_slots.h"
@@ -39,6 +40,8 @@ struct PageStreamOptions
     ResidencyOptions residency;
     /// slots of the pool; the budget covers the pinned pages plus at most these slots
     uint32_t slot_count = 0;
+    /// Parts of the pool beside those slots, closed at first, and the most slots of each (PageSlots).
+    uint32_t movable_parts = 0, part_slots = 0;
     uint32_t slot_bytes = 0; ///< slot size of the graph (PageGraph::withSlotSize)
     PageReader read;
 };
@@ -51,17 +54,27 @@ struct PageUpload
     uint32_t staging_slot = 0;
 };
 
+/// Copy of a page from a slot of a part that is to be closed to another slot. Frames before this one read the
+/// old slot.
+struct PageMove
+{
+    uint32_t page = 0;
+    uint32_t from_slot = 0;
+    uint32_t slot = 0;
+};
+
 /// Changes to apply at the start of a frame, before culling; valid until the next beginFrame.
 struct StreamChanges
 {
     std::span<const PageUpload> uploads;
+    std::span<const PageMove> moves;                ///< after the uploads
     std::span<const ResidentGroups::Change> groups; ///< each group once
     std::span<const uint32_t> failed;               ///< pages that cannot be read, once for each attempt
 };
 
 struct StreamStatistics
 {
-    uint64_t budget_bytes = 0;
+    uint64_t budget_bytes = 0;   ///< of pages; while parts are being closed, at least bytes_in_use
     uint64_t bytes_in_use = 0;   ///< budget in use: pinned pages, and slots that are not free
     uint64_t bytes_resident = 0; ///< decoded bytes of the resident pages
     uint64_t bytes_streamed = 0; ///< decoded bytes of all pages read so far
@@ -109,6 +122,22 @@ public:
 
     void retryFailed() { residency_.retryFailed(); }
 
+    /// Open a part of the pool, which is closed and free: its slots take pages from now on.
+    void openPart(uint32_t part, uint32_t slots);
+
+    /// Close a part: pages are evicted until the others hold the rest, which then moves to them. No page is
+    /// lost that these have room for.
+    void closePart(uint32_t part);
+
+    /// Return true if neither the frame that was begun nor a later one uses a part that has been closed.
+    bool isPartFree(uint32_t part) const
+    {
+        return slots_.usedSlots(part) == 0 && leaving_serial_ < serial_ && !slots_.isOpen(part);
+    }
+
+    /// Fit the error scale to so many slots, however many there are for the moment.
+    void setDemandSlots(uint32_t slots);
+
     const Residency& residency() const { return residency_; }
     uint32_t pageSlot(uint32_t page) const { return slot_of_page_[page]; } ///< kInvalidIndex: none
     const StreamStatistics& statistics() const { return statistics_; }
@@ -118,6 +147,8 @@ private:
                std::span<std::byte> staging);
     void takeCompletions(uint64_t serial);
     void freeSlot(uint32_t page);
+    void movePages();
+    void updateBudget();
     void startReads();
     void updateStatistics();
 
@@ -129,7 +160,11 @@ private:
     std::unique_ptr<CompletionQueue> queue_; // readers keep its address
 
     std::vector<uint32_t> slot_of_page_, staging_of_page_; ///< kInvalidIndex: none
-    std::vector<uint32_t> free_slots_;
+    PageSlots slots_;
+    std::vector<uint32_t> closing_parts_;
+    std::vector<PageMove> moves_;
+    uint32_t demand_slots_;
+    uint64_t leaving_serial_ = 0; ///< last frame with a copy from or to a part that is being closed
     StagingSlots staging_slots_;
     std::vector<uint32_t> pending_reads_; ///< pages to read as soon as staging memory is free, in order
     std::vector<PageUpload> uploads_;

@@ -199,7 +199,7 @@ std::span<const uint32_t> Residency::schedule()
 /// retried do not count: drawing coarser would not bring them.
 void Residency::measureDemand()
 {
-    uint64_t bytes = graph_.pinnedBytes();
+    wanted_bytes_ = 0;
     for (const uint32_t page : wanted_)
     {
         const auto needs = graph_.needs(page);
@@ -208,9 +208,9 @@ void Residency::measureDemand()
             wanted.state == State::failed ||
             std::any_of(needs.begin(), needs.end(), [&](uint32_t needed) { return pages_[needed].blocked; });
         if (!wanted.blocked && !graph_.isPinned(page) && wanted.priority > 1)
-            bytes += graph_.sizeBytes(page);
+            wanted_bytes_ += graph_.sizeBytes(page);
     }
-    error_scale_.update(bytes, demand_bytes_);
+    error_scale_.update(graph_.pinnedBytes() + wanted_bytes_, demand_bytes_);
 }
 
 /// Evict the least worth until what stays fits the budget, as far as it is not loading.

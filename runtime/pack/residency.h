@@ -86,8 +86,8 @@ public:
     /// page  was returned by schedule and has not ended yet (asserted)
     void completed(uint32_t page, bool ok);
 
-    /// Change the budget. Bytes beyond a smaller one are evicted from the next schedule on, least worth first,
-    /// whether or not they are wanted; until they are released, nothing is loaded.
+    /// Change the budget. Bytes beyond a smaller one are evicted from the next schedule on, least
+    /// worth first, whether or not they are wanted; until they are released, nothing is loaded.
     /// bytes         at least those of the pinned pages (asserted)
     /// demand_bytes  budget that errorScale() fits the wanted pages to: another than `bytes` where that one
     ///               holds for a few frames only
@@ -98,6 +98,10 @@ public:
 
     /// Return the factor for the caller's threshold, >= 1: above 1 while the wanted pages exceed the budget.
     float errorScale() const { return error_scale_.value(); }
+
+    /// Return the bytes of the pages that the last schedule wanted to be drawn and that can be loaded,
+    /// without the pinned ones: what errorScale() fits to the budget.
+    uint64_t wantedBytes() const { return wanted_bytes_; }
 
     /// True if the page is resident as of the last beginFrame.
     bool isResident(uint32_t page) const
@@ -191,6 +195,7 @@ private:
     EvictionQueue evictable_; ///< resident, not pinned, no dependents
     ErrorScale error_scale_;
     uint64_t demand_bytes_; ///< budget of the error scale
+    uint64_t wanted_bytes_ = 0;
     uint64_t serial_ = 0;
     uint64_t completed_serial_ = 0;
     uint64_t round_ = 1; ///< round of requests; ends with schedule

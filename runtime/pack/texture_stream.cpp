@@ -41,8 +41,19 @@ TextureStream::TextureStream(const formats::PackView& view, TextureGraph graph, 
     findFinestMips();
 }
 
+void TextureStream::setBudget(uint64_t bytes)
+{
+    if (bytes == options_.budget_bytes)
+        return;
+    options_.budget_bytes = bytes;
+    residency_.setBudget(bytes, bytes);
+    findFinestMips();
+    changed_serial_ = serial_;
+}
+
 void TextureStream::findFinestMips()
 {
+    finest_mips_.clear();
     const PageGraph& nodes = graph_.nodes();
     for (uint32_t image = 0; image < pieces_.size(); ++image)
     {

@@ -52,8 +52,8 @@ struct TextureChanges
 
 /// Stream of the mips of a pack's images, called frame by frame from one thread; reads may end on others. The
 /// bytes of all images, also of those that replace others and of those that frames in flight read, never
-/// exceed the budget, as long as an image that was replaced in frame n lives until frame n has completed.
-/// Deterministic, as PageStream.
+/// exceed the budget, unless it was just made smaller, as long as an image that was replaced in frame
+/// n lives until frame n has completed. Deterministic, as PageStream.
 class TextureStream
 {
 public:
@@ -83,6 +83,9 @@ public:
     uint32_t readsInFlight() const { return reads_in_flight_; }
     void retryFailed() { residency_.retryFailed(); }
 
+    /// Change the budget, which the tails fit (asserted); bytes beyond it are evicted, as
+    /// Residency::setBudget.
+    void setBudget(uint64_t bytes);
     uint64_t budgetBytes() const { return options_.budget_bytes; }
     const TextureGraph& graph() const { return graph_; }
     const Residency& residency() const { return residency_; }

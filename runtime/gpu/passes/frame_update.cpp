@@ -2,6 +2,7 @@
 #include "runtime/gpu/passes/frame_update.h"
 
 #include "runtime/gpu/scene/scene_shadows.h"
+#include "runtime/gpu/scene/scene_tables.h"
 #include "runtime/gpu/textures/streamed_textures.h"
 
 #include <cstring>
@@ -36,12 +37,15 @@ void recordStream(const Device& device, VkCommandBuffer commands, const Scene& s
                   const WordCopyPass& copy_words, WordCopies& copies)
 {
     const SceneFrame& frame = scene.frame();
-    const SceneStream::Copies ranges = scene.stream->takeChanges(scene.buffers, scene.tables->frame, copies);
+    const uint32_t number = scene.tables->frame;
+    if (scene.stream->takePoolChange(number))
+        rebindPool(device, scene, number);
+    const SceneStream::Copies ranges = scene.stream->takeChanges(scene.buffers, number, copies);
     for (size_t i = 0; i < ranges.size(); ++i)
         copy_words.record(device, commands, frame.stream_copy_sets[i], ranges[i]);
+    scene.stream->recordMoves(commands, scene.buffers);
     if (scene.textures == nullptr)
         return;
-    const uint32_t number = scene.tables->frame;
     for (const uint32_t row : scene.textures->record(commands, number))
     {
         writeMaterialTextures(device, scene, row, scene.materials[row].sets[number]);

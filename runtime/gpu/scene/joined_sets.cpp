@@ -66,6 +66,14 @@ void JoinedSets::setMaterial(const Device& device, uint32_t frame, size_t row, V
     copier.write(device);
 }
 
+void JoinedSets::setScene(const Device& device, uint32_t frame, VkDescriptorSet scene)
+{
+    DescriptorCopier copier;
+    for (const VkDescriptorSet set : frames_[frame].materials)
+        copier.copy(scene, set, bindings_.scene);
+    copier.write(device);
+}
+
 void JoinedSets::setAttachments(const Device& device, uint32_t frame, const AttachmentSet& attachments)
 {
     Frame& sets = frames_[frame];

@@ -41,6 +41,9 @@ public:
     /// Join a material's set again after a change. The frame before it in its place has completed.
     void setMaterial(const Device& device, uint32_t frame, size_t row, VkDescriptorSet material);
 
+    /// Join the set of the scene again after a change. The frame before it in its place has completed.
+    void setScene(const Device& device, uint32_t frame, VkDescriptorSet scene);
+
     VkDescriptorSet material(uint32_t frame, size_t row) const { return frames_[frame].materials[row]; }
     VkDescriptorSet clusters(uint32_t frame) const { return frames_[frame].clusters; }
 

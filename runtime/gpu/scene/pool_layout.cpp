@@ -17,11 +17,15 @@ namespace
 constexpr uint64_t kSliceWords = uint64_t{1} << shared::kPoolSliceAddressBits;
 constexpr uint32_t kSlotAlignment = 64;
 
-/// Bytes of the pool for pages. The last slice of a scene with deformed meshes holds poses.
+/// Slices of the pool for pages. The last slice of a scene with deformed meshes holds poses.
+uint32_t countSlices(const formats::PackView& pack)
+{
+    return pack.deformedMeshes().empty() ? shared::kPoolSlices : shared::kDeformationSlice;
+}
+
 uint64_t poolBytes(const formats::PackView& pack)
 {
-    const uint32_t slices = pack.deformedMeshes().empty() ? shared::kPoolSlices : shared::kDeformationSlice;
-    return slices * kSliceWords * 4;
+    return countSlices(pack) * kSliceWords * 4;
 }
 
 /// Allocates words of the pool from its start; no allocation crosses a slice boundary.
@@ -93,16 +97,53 @@ Result<PoolLayout> placePinnedPages(const formats::PackView& pack, const pack::P
                     std::to_string(std::min(budget_bytes, pool_bytes))};
         layout.page_addresses[page] = *address;
     }
-    layout.slot_bytes = kSlotAlignment;
-    for (uint32_t page = 0; page < graph.pageCount(); ++page)
-        if (!graph.isPinned(page))
-            layout.slot_bytes = std::max(layout.slot_bytes, graph.sizeBytes(page));
-    layout.slot_bytes = (layout.slot_bytes + kSlotAlignment - 1) / kSlotAlignment * kSlotAlignment;
+    layout.slot_bytes = slotBytes(graph);
     for (size_t count = graph.pageCount() - graph.pinned().size(); count > 0; --count)
         if (const auto address = placer.place(layout.slot_bytes))
             layout.slot_addresses.push_back(*address);
         else
             break;
+    return layout;
+}
+
+uint32_t slotBytes(const pack::PageGraph& graph)
+{
+    uint32_t bytes = kSlotAlignment;
+    for (uint32_t page = 0; page < graph.pageCount(); ++page)
+        if (!graph.isPinned(page))
+            bytes = std::max(bytes, graph.sizeBytes(page));
+    return (bytes + kSlotAlignment - 1) / kSlotAlignment * kSlotAlignment;
+}
+
+pack::PoolParts movableParts(const formats::PackView& pack, const pack::PageGraph& graph,
+                             uint64_t budget_bytes)
+{
+    // the fixed slots take an eighth of the budget at most, and slices end with less than a page to spare
+    const uint64_t slice_bytes = kSliceWords * 4 - formats::kMaxPageBytes;
+    const uint64_t used = (graph.pinnedBytes() + budget_bytes / 8) / slice_bytes + 1;
+    const uint64_t slices = countSlices(pack);
+    return {.count = static_cast<uint32_t>(slices - std::min(slices, used)),
+            .max_slots = static_cast<uint32_t>(kSliceWords * 4 / slotBytes(graph))};
+}
+
+Result<PoolLayout> placeExchange(const formats::PackView& pack, const pack::PageGraph& graph,
+                                 pack::ExchangeLayout& exchange)
+{
+    const uint64_t fixed_bytes =
+        exchange.pinned_page_bytes + uint64_t{exchange.fixed_slots} * exchange.slot_bytes;
+    HEARTH_ASSIGN_OR_RETURN(PoolLayout layout, placePinnedPages(pack, graph, fixed_bytes));
+    exchange.fixed_slots = static_cast<uint32_t>(layout.slot_addresses.size());
+    layout.first_movable_slice = countSlices(pack) - exchange.parts;
+    const pack::MemoryExchange at_first(exchange);
+    const uint32_t slot_words = layout.slot_bytes / 4;
+    for (uint32_t part = 0; part < exchange.parts; ++part)
+    {
+        const uint32_t slice = layout.first_movable_slice + part;
+        HEARTH_ASSERT(layout.slice_words[slice] == 0);
+        layout.slice_words[slice] = at_first.slots(part) * slot_words;
+        for (uint32_t slot = 0; slot < exchange.part_slots; ++slot)
+            layout.slot_addresses.push_back(static_cast<uint32_t>(slice * kSliceWords) + slot * slot_words);
+    }
     return layout;
 }
 

@@ -8,6 +8,7 @@
 #include "runtime/gpu/lights/scene_lights.h"
 #include "runtime/gpu/scene/draw_layouts.h"
 #include "runtime/gpu/scene/joined_sets.h"
+#include "runtime/gpu/scene/pool_buffers.h"
 #include "runtime/gpu/scene/scene_bricks.h"
 #include "runtime/gpu/scene/scene_deformation.h"
 #include "runtime/gpu/scene/scene_frames.h"
@@ -37,8 +38,9 @@ struct SceneOptions
     /// frames before it have completed.
     uint32_t frames_in_flight = 2;
 
-    /// Bytes of geometry and textures on the device; `stream` loads pages and mips on demand
-    /// (runtime/gpu/README.md, "Streaming"). 0: all is resident, geometry of at most 512 MiB.
+    /// Bytes of geometry and textures on the device; `stream` loads pages and mips on demand, and
+    /// memory moves between both (runtime/gpu/README.md, "Streaming"). 0: all is resident, geometry of
+    /// at most 512 MiB.
     uint64_t memory_budget = 0;
     StreamOptions stream{};
 
@@ -66,8 +68,9 @@ struct SceneBuffers
     Buffer materials, items, order, clusters, bins, group_items;
     // constant except for streaming
     Buffer groups;
-    Buffer cluster_draws; ///< mapped: rows of a page change while no frame draws it
-    std::array<Buffer, shared::kPoolSlices> pool;
+    /// Mapped: rows of a page change while no frame draws it, or by a frame's commands.
+    Buffer cluster_draws;
+    PoolBuffers pool;
     // rewritten by every culling phase, and read by compute shaders only
     Buffer states, results, totals;
 };

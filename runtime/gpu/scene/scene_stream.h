@@ -6,15 +6,18 @@
 #include "runtime/gpu/scene/pool_layout.h"
 #include "runtime/gpu/vulkan/memory.h"
 #include "runtime/gpu/vulkan/word_copies.h"
+#include "runtime/pack/memory_exchange.h"
 #include "runtime/pack/page_stream.h"
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace hearth::gpu
 {
 
+class PoolBuffers;
 class StreamedTextures;
 struct SceneBuffers;
 struct SceneFrame;
@@ -36,14 +39,16 @@ class SceneStream
 public:
     /// pack   outlives the stream
     /// graph  page graph of the pack
-    /// pool   from placePinnedPages
+    /// pool   from placePinnedPages, or with an exchange placeExchange
     /// errors: streaming_budget, device_failed.
     static Result<std::unique_ptr<SceneStream>> create(const Device& device, const formats::PackView& pack,
                                                        const pack::PageGraph& graph, const PoolLayout& pool,
+                                                       const std::optional<pack::ExchangeLayout>& exchange,
                                                        const StreamOptions& options);
 
-    /// Set the frames of the scene, whose requests are read once they have completed.
-    void setFrames(std::span<const SceneFrame> frames);
+    /// Set the frames of the scene, whose requests are read once they have completed, and the buffers of its
+    /// pool, which come and go with an exchange.
+    void setFrames(std::span<const SceneFrame> frames, PoolBuffers& pool);
 
     /// Stream textures as well: they outlive the stream.
     void setTextures(StreamedTextures& textures) { textures_ = &textures; }
@@ -76,6 +81,16 @@ public:
     VkDeviceSize allocatedBytes() const;
 
     StreamedTextures* textures() const { return textures_; } ///< null: none are streamed
+
+    /// Return whether the sets of a frame in flight name buffers of the pool that have changed. Once it is
+    /// asked, they are taken to be rebound.
+    bool takePoolChange(uint32_t number);
+
+    /// Record the copies of pages that leave a part of the pool, after the copies of takeChanges.
+    void recordMoves(VkCommandBuffer commands, const SceneBuffers& buffers) const;
+
+    /// Null if the shares of geometry and textures are fixed.
+    const pack::MemoryExchange* exchange() const { return exchange_ ? &*exchange_ : nullptr; }
 
     /// Decoded pages on their way into the pool.
     const Buffer& staging() const { return memory_.staging; }
@@ -112,6 +127,7 @@ private:
           pack_(pack),
           slot_addresses_(pool.slot_addresses),
           slot_bytes_(pool.slot_bytes),
+          first_movable_slice_(pool.first_movable_slice),
           memory_(std::move(memory)),
           pages_(std::move(pages))
     {
@@ -120,6 +136,12 @@ private:
                                        const StreamOptions& options);
     void readRequests(uint64_t completed_serial);
     void takeRequests(const RequestReadback& feedback);
+    void balanceMemory(uint64_t feedback_serial);
+    void moveMemory(uint64_t completed_serial);
+    void closeParts(uint64_t completed_serial);
+    void openParts();
+    void fitBudgets();
+    void markPoolChanged() { outdated_pools_.assign(outdated_pools_.size(), true); }
     CopyRange listUploads(uint32_t slice, WordCopies& copies) const;
     void writeDraws(const SceneBuffers& buffers, const pack::PageUpload& upload) const;
 
@@ -127,10 +149,15 @@ private:
     const formats::PackView& pack_;
     std::vector<uint32_t> slot_addresses_;
     uint32_t slot_bytes_;
+    uint32_t first_movable_slice_; ///< of the exchange's parts
     Memory memory_;
     std::vector<RequestReadback> feedback_;
     pack::PageStream pages_;
     StreamedTextures* textures_ = nullptr;
+    std::optional<pack::MemoryExchange> exchange_;
+    PoolBuffers* pool_ = nullptr;
+    std::vector<bool> outdated_pools_;        ///< [frame in flight] its sets name old buffers
+    uint64_t balanced_serial_ = 0;            ///< last frame whose requests led to no move
     std::vector<uint32_t> material_requests_; ///< of the round: for each row, the greatest
     pack::StreamChanges changes_{};
     uint64_t serial_ = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/scene/scene_tables.h"
 
+#include <algorithm>
+
 namespace hearth::gpu
 {
 
@@ -112,6 +114,34 @@ Result<VkDescriptorSet> createTableSet(const Device& device, const TableView& fr
                             allocateSet(device, from.scene.pool.get(), pipeline.set_layout.get()));
     writeTables(device, from, set, tables);
     return set;
+}
+
+void writePool(const Scene& scene, uint32_t frame, DescriptorWriter& writer)
+{
+    for (uint32_t slice = 0; slice < shared::kPoolSlices; ++slice)
+        writer.storage(shared::kScenePool + slice,
+                       scene.deformation != nullptr && slice == shared::kDeformationSlice
+                           ? scene.deformation->table.copy(frame)
+                           : scene.buffers.pool[slice]);
+}
+
+void rebindPool(const Device& device, const Scene& scene, uint32_t frame)
+{
+    const SceneFrame& sets = scene.frames[frame];
+    const auto rebind = [&](const SceneView& view)
+    {
+        DescriptorWriter writer(view.draw_set);
+        writePool(scene, frame, writer);
+        writer.write(device);
+    };
+    rebind(sets.main);
+    std::ranges::for_each(sets.casters, rebind);
+    for (uint32_t slice = 0; slice < shared::kPoolSlices; ++slice)
+        DescriptorWriter(sets.stream_copy_sets[slice])
+            .storage(shared::kWordCopyTarget, scene.buffers.pool[slice])
+            .write(device);
+    if (scene.joined_sets != nullptr)
+        scene.joined_sets->setScene(device, frame, sets.main.draw_set);
 }
 
 } // namespace hearth::gpu

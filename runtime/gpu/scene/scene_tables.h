@@ -41,4 +41,11 @@ void writeTables(const Device& device, const TableView& from, VkDescriptorSet se
 Result<VkDescriptorSet> createTableSet(const Device& device, const TableView& from,
                                        const ComputePipeline& pipeline, std::span<const uint32_t> tables);
 
+/// Write the bindings of the pool for a frame in flight into a set of the scene.
+void writePool(const Scene& scene, uint32_t frame, DescriptorWriter& writer);
+
+/// Write the pool into all sets of a frame in flight, which is not yet recorded; the one before it in its
+/// place has completed.
+void rebindPool(const Device& device, const Scene& scene, uint32_t frame);
+
 } // namespace hearth::gpu

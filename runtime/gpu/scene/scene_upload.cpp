@@ -159,11 +159,9 @@ Status createBuffers(const Device& device, const formats::PackView& pack, const 
     f.make(b.order, "cluster numbers", layout.order.size(), sizeof(uint32_t), kTable);
     f.make(b.clusters, "clusters", pack.clusters().size(), sizeof(shared::Cluster), kTable);
     f.make(b.groups, "groups", pack.groups().size(), sizeof(shared::Group), kTable);
-    f.make(b.cluster_draws, "clusters", pack.clusters().size(), sizeof(shared::ClusterDraw),
-           VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, MemoryKind::upload);
+    f.make(b.cluster_draws, "clusters", pack.clusters().size(), sizeof(shared::ClusterDraw), kTable,
+           MemoryKind::upload);
     f.make(b.bins, "bins", layout.bins.size(), sizeof(shared::Bin), kTable);
-    for (uint32_t slice = 0; slice < shared::kPoolSlices; ++slice)
-        f.make(b.pool[slice], "geometry", layout.pool.slice_words[slice], sizeof(uint32_t), kTable);
     f.make(b.states, "instance states", pack.instances().size(), sizeof(shared::InstanceState), kWorkUsage);
     f.make(b.results, "work results", layout.items.size(), sizeof(shared::WorkResult), kWorkUsage);
     f.make(b.totals, "scan totals", uint64_t{blockCount(scene)} + 1, sizeof(uint32_t), kWorkUsage);
@@ -178,8 +176,11 @@ Status createBuffers(const Device& device, const formats::PackView& pack, const 
     HEARTH_TRY(f.take());
     for (const SceneFrame& frame : scene.frames)
         prepareCopyRegions(frame.copy_regions);
+    for (uint32_t slice = 0; slice < shared::kPoolSlices; ++slice)
+        if (const uint64_t words = layout.pool.slice_words[slice]; slice == 0 || words > 0)
+            HEARTH_TRY(b.pool.open(device, slice, words * sizeof(uint32_t)));
     if (scene.stream != nullptr)
-        scene.stream->setFrames(scene.frames);
+        scene.stream->setFrames(scene.frames, b.pool);
     return success();
 }
 
@@ -237,7 +238,7 @@ Status uploadGeometry(const formats::PackView& pack, const SceneLayout& layout, 
 {
     std::array<std::span<std::byte>, shared::kPoolSlices> slices;
     for (uint32_t slice = 0; slice < shared::kPoolSlices; ++slice)
-        if (layout.pool.slice_words[slice] > 0)
+        if (layout.pool.slice_words[slice] > 0 && slice < layout.pool.first_movable_slice)
         {
             HEARTH_ASSIGN_OR_RETURN(
                 slices[slice],
@@ -267,11 +268,7 @@ Status createViewSets(const Device& device, const DrawLayouts& layouts, const Sc
         .storage(shared::kSceneVisible, view.visible)
         .storage(shared::kSceneDraws, scene.buffers.cluster_draws)
         .storage(shared::kSceneLighting, t.lighting.copy(number));
-    for (uint32_t slice = 0; slice < shared::kPoolSlices; ++slice)
-        writer.storage(shared::kScenePool + slice,
-                       scene.deformation != nullptr && slice == shared::kDeformationSlice
-                           ? scene.deformation->table.copy(number)
-                           : scene.buffers.pool[slice]);
+    writePool(scene, number, writer);
     writer.write(device);
     HEARTH_ASSIGN_OR_RETURN(view.bins_set, allocateSet(device, scene.pool.get(), layouts.bins.get()));
     DescriptorWriter(view.bins_set).storage(shared::kBinsDraws, view.bin_draws).write(device);
@@ -341,13 +338,39 @@ std::vector<std::vector<pack::TextureUse>> listTextureUses(const formats::PackVi
     return uses;
 }
 
-/// Divide the budget of a scene. Pages take slots as large as the largest.
-pack::MemoryShares divideBudget(uint64_t budget, const pack::PageGraph& pages, const TextureSizes& sizes)
+/// Create the streams of a scene, which divide its budget: for good where it holds all pages and mips that
+/// can be streamed, or all of one kind; else memory moves between both.
+Result<PoolLayout> createStreams(const Device& device, const formats::PackView& pack,
+                                 const SceneOptions& options, Scene& scene)
 {
-    uint32_t slot_bytes = 0;
-    for (uint32_t page = 0; page < pages.pageCount(); ++page)
-        slot_bytes = std::max(slot_bytes, pages.sizeBytes(page));
-    return pack::divideMemory(budget, pages.withSlotSize(slot_bytes), pack::TextureGraph(sizes).nodes());
+    const pack::PageGraph graph = pack::PageGraph::of(pack);
+    const pack::PageGraph pages = graph.withSlotSize(slotBytes(graph));
+    HEARTH_ASSIGN_OR_RETURN(const TextureSizes sizes,
+                            measureTextures(device, pack, findUsedImages(pack), options.decode_textures));
+    const pack::TextureGraph texture_graph(sizes);
+    const pack::PageGraph& textures = texture_graph.nodes();
+    const uint64_t budget = options.memory_budget;
+    std::optional<pack::ExchangeLayout> exchange =
+        pack::planExchange(budget, pages, slotBytes(graph), textures, movableParts(pack, graph, budget));
+    const pack::MemoryShares shares = pack::divideMemory(budget, pages, textures);
+    HEARTH_ASSIGN_OR_RETURN(PoolLayout pool, exchange ? placeExchange(pack, graph, *exchange)
+                                                      : placePinnedPages(pack, graph, shares.geometry));
+    HEARTH_ASSIGN_OR_RETURN(scene.stream,
+                            SceneStream::create(device, pack, graph, pool, exchange, options.stream));
+    if (shares.textures == 0)
+        return pool;
+    HEARTH_ASSIGN_OR_RETURN(
+        scene.textures,
+        StreamedTextures::create(
+            device, pack,
+            {.sizes = sizes,
+             .uses = listTextureUses(pack, sizes),
+             .frame_count = options.frames_in_flight,
+             .budget_bytes = exchange ? pack::MemoryExchange(*exchange).textureBytes() : shares.textures,
+             .max_loads = options.stream.max_loads,
+             .read = options.stream.read}));
+    scene.stream->setTextures(*scene.textures);
+    return pool;
 }
 
 /// Mark the materials that are used by meshes with sky visibility.
@@ -405,25 +428,7 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
     PoolLayout pool;
     if (options.memory_budget > 0)
     {
-        const pack::PageGraph graph = pack::PageGraph::of(pack);
-        HEARTH_ASSIGN_OR_RETURN(const TextureSizes sizes,
-                                measureTextures(device, pack, findUsedImages(pack), options.decode_textures));
-        const pack::MemoryShares shares = divideBudget(options.memory_budget, graph, sizes);
-        HEARTH_ASSIGN_OR_RETURN(pool, placePinnedPages(pack, graph, shares.geometry));
-        HEARTH_ASSIGN_OR_RETURN(scene->stream,
-                                SceneStream::create(device, pack, graph, pool, options.stream));
-        if (shares.textures > 0)
-        {
-            HEARTH_ASSIGN_OR_RETURN(scene->textures,
-                                    StreamedTextures::create(device, pack,
-                                                             {.sizes = sizes,
-                                                              .uses = listTextureUses(pack, sizes),
-                                                              .frame_count = options.frames_in_flight,
-                                                              .budget_bytes = shares.textures,
-                                                              .max_loads = options.stream.max_loads,
-                                                              .read = options.stream.read}));
-            scene->stream->setTextures(*scene->textures);
-        }
+        HEARTH_ASSIGN_OR_RETURN(pool, createStreams(device, pack, options, *scene));
     }
     else
     {
@@ -439,7 +444,9 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
     scene->decodes_textures = options.decode_textures;
     scene->slot_capacity = static_cast<uint32_t>(std::min<uint64_t>(
         layout.instanced_clusters, std::min(options.max_visible_clusters, shared::kMaxSlots)));
-    scene->used_slices = layout.pool.slice_words[1] == 0 ? 1 : shared::kPoolSlices;
+    const bool has_one_slice =
+        layout.pool.slice_words[1] == 0 && layout.pool.first_movable_slice == shared::kPoolSlices;
+    scene->used_slices = has_one_slice ? 1 : shared::kPoolSlices;
     scene->bounds = pack::sceneBounds(pack);
 
     shared::SceneLighting lighting = makeLighting(pack);

@@ -340,7 +340,7 @@ TextureStatistics StreamedTextures::statistics() const
             on_device += held->has_value() ? (*held)->image.bytes : 0;
     for (const Retired& retired : retired_)
         on_device += retired.held.image.bytes;
-    return {.budget_bytes = stream_.budgetBytes(),
+    return {.budget_bytes = std::max(stream_.budgetBytes(), residency.bytesInUse()),
             .bytes_in_use = residency.bytesInUse(),
             .bytes_on_device = on_device,
             .bytes_streamed = bytes_streamed_,

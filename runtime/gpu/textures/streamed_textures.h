@@ -36,7 +36,7 @@ struct StreamedTextureOptions
 
 struct TextureStatistics
 {
-    uint64_t budget_bytes = 0;
+    uint64_t budget_bytes = 0;    ///< the share now; after it has shrunk, at least bytes_in_use
     uint64_t bytes_in_use = 0;    ///< of the budget
     uint64_t bytes_on_device = 0; ///< of all images, also of those that replace others or are still read
     uint64_t bytes_streamed = 0;  ///< of texels, so far
@@ -78,6 +78,7 @@ public:
     VkDeviceSize stagingBytes() const { return staging_.size; }
     const pack::TextureStream& stream() const { return stream_; }
     void retryFailed() { stream_.retryFailed(); }
+    void setBudget(uint64_t bytes) { stream_.setBudget(bytes); } ///< as TextureStream::setBudget
 
 private:
     /// Image in memory of its own.

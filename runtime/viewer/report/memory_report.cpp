@@ -41,11 +41,10 @@ MemoryCounts countMemory(const gpu::Scene& scene, const gpu::FrameTargets& targe
     counts.attachments -= counts.tile_attachments;
     counts.pyramid = targets.pyramidBytes();
     counts.lists = targets.allocatedBytes() - counts.attachments - counts.pyramid;
-    for (const gpu::Buffer& slice : scene.buffers.pool)
-        counts.geometry += slice.size;
+    counts.geometry = scene.buffers.pool.bytes();
     for (const gpu::Image& image : scene.images)
         counts.textures += image.bytes;
-    counts.tables = scene.arena.allocatedBytes() - counts.geometry - counts.textures;
+    counts.tables = scene.arena.allocatedBytes() - counts.textures;
     if (scene.stream != nullptr)
         counts.tables += scene.stream->allocatedBytes();
     if (scene.shadows != nullptr)

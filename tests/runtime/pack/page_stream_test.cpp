@@ -103,11 +103,14 @@ private:
 class FakeDevice
 {
 public:
-    FakeDevice(const PackView& view, const pack::PageGraph& graph, uint32_t slot_count)
+    FakeDevice(const PackView& view, const pack::PageGraph& graph, uint32_t slot_count, uint32_t parts = 0,
+               uint32_t part_slots = 0)
         : view_(view),
           graph_(graph),
           slot_count_(slot_count),
-          pool_(size_t{slot_count} * formats::kMaxPageBytes),
+          parts_(parts),
+          part_slots_(part_slots),
+          pool_((size_t{slot_count} + parts * part_slots) * formats::kMaxPageBytes),
           staging_(size_t{6} * formats::kMaxPageBytes)
     {
         for (uint32_t page = 0; page < view.pages().size(); ++page)
@@ -126,6 +129,8 @@ public:
                                graph_.pinnedBytes() + uint64_t{slot_count_} * formats::kMaxPageBytes,
                            .max_loads = 8},
              .slot_count = slot_count_,
+             .movable_parts = parts_,
+             .part_slots = part_slots_,
              .slot_bytes = formats::kMaxPageBytes,
              .read = std::move(read)},
             staging_);
@@ -136,7 +141,10 @@ public:
     /// Submit frame `serial`, which copies the pages that have been read and draws the resident ones.
     void submit(uint64_t serial, const pack::StreamChanges& changes, const pack::PageStream& stream)
     {
-        Frame frame{serial, {changes.uploads.begin(), changes.uploads.end()}, {}};
+        Frame frame{serial,
+                    {changes.uploads.begin(), changes.uploads.end()},
+                    {changes.moves.begin(), changes.moves.end()},
+                    {}};
         for (uint32_t page = 0; page < view_.pages().size(); ++page)
             if (stream.residency().isResident(page) && !graph_.isPinned(page))
                 frame.drawn.emplace_back(page, stream.pageSlot(page));
@@ -149,10 +157,19 @@ public:
         {
             for (const auto& [page, slot, staging_slot] : frames_.front().uploads)
                 std::copy_n(getSlot(staging_, staging_slot), view_.pages()[page].size, getSlot(pool_, slot));
+            for (const auto& [page, from_slot, slot] : frames_.front().moves)
+                std::copy_n(getSlot(pool_, from_slot), view_.pages()[page].size, getSlot(pool_, slot));
             for (const auto& [page, slot] : frames_.front().drawn)
                 EXPECT_TRUE(std::equal(expected_[page].begin(), expected_[page].end(), getSlot(pool_, slot)))
                     << page;
         }
+    }
+
+    /// Give the memory of a part to others, who overwrite it.
+    void freePart(uint32_t part)
+    {
+        std::fill_n(getSlot(pool_, slot_count_ + (part - 1) * part_slots_),
+                    size_t{part_slots_} * formats::kMaxPageBytes, std::byte{0xA5});
     }
 
 private:
@@ -162,6 +179,7 @@ private:
     {
         uint64_t serial;
         std::vector<pack::PageUpload> uploads;
+        std::vector<pack::PageMove> moves;
         std::vector<std::pair<uint32_t, uint32_t>> drawn; ///< page and slot
     };
 
@@ -170,7 +188,7 @@ private:
         return memory.begin() + static_cast<ptrdiff_t>(slot) * formats::kMaxPageBytes;
     }
 
-    uint32_t slot_count_;
+    uint32_t slot_count_, parts_, part_slots_;
     std::vector<std::vector<std::byte>> expected_; ///< each page as it was cooked
     std::vector<std::byte> pool_, staging_;
     std::deque<Frame> frames_;
@@ -279,6 +297,113 @@ TEST(PageStream, bringsEveryResidentPageToItsSlotWhateverThreadsReadIt)
         frame(0);
     EXPECT_EQ(failures, 1u) << "the page that cannot be read is reported once";
     EXPECT_EQ(stream.statistics().failures, 1u);
+}
+
+/// Parts of a pool that are opened and closed at random, and freed when no frame reads them.
+class RandomParts
+{
+public:
+    static constexpr uint32_t kParts = 3, kSlots = 6;
+
+    RandomParts(FakeDevice& device, pack::PageStream& stream, std::mt19937& random)
+        : device_(device), stream_(stream), random_(random)
+    {
+    }
+
+    /// Change parts in frame `serial`, which has been begun.
+    void frame(uint64_t serial, uint64_t completed)
+    {
+        for (uint32_t part = 1; part <= kParts; ++part)
+        {
+            Part& state = parts_[part - 1];
+            if (state.slots == 0 && random_() % 16 == 0)
+            {
+                state.slots = 1 + static_cast<uint32_t>(random_() % kSlots);
+                stream_.openPart(part, state.slots);
+            }
+            else if (state.slots > 0 && !state.is_closing && random_() % 32 == 0)
+            {
+                stream_.closePart(part);
+                state.is_closing = true;
+            }
+            else if (state.is_closing && state.last_serial == 0 && stream_.isPartFree(part))
+                state.last_serial = serial - 1;
+            else if (state.last_serial > 0 && state.last_serial <= completed)
+            {
+                device_.freePart(part);
+                state = {};
+                ++freed;
+            }
+        }
+        uint32_t open = 0;
+        for (const Part& part : parts_)
+            open += part.is_closing ? 0 : part.slots;
+        stream_.setDemandSlots(open);
+    }
+
+    size_t freed = 0;
+
+private:
+    struct Part
+    {
+        uint32_t slots = 0;
+        bool is_closing = false;
+        uint64_t last_serial = 0; ///< last frame that reads it; 0: not known yet
+    };
+
+    FakeDevice& device_;
+    pack::PageStream& stream_;
+    std::mt19937& random_;
+    std::array<Part, kParts> parts_;
+};
+
+TEST(PageStream, losesNoPageWhilePartsOfThePoolComeAndGo)
+{
+    TestScene scene;
+    scene.addMesh(plain(shapes::rock(72, 0.3f)));
+    const PackView view = scene.build();
+    const pack::PageGraph graph = pack::PageGraph::of(view);
+    std::mt19937 random(9);
+    size_t moves = 0, freed = 0, failures = 0;
+    for (size_t history = 0; history < trials(8) && !testing::Test::HasFailure(); ++history)
+    {
+        FakeDevice device(view, graph, 2, RandomParts::kParts, RandomParts::kSlots);
+        std::deque<std::tuple<uint32_t, std::span<std::byte>, pack::ReadDone>> reads;
+        pack::PageStream stream =
+            device.makeStream([&](uint32_t page, std::span<std::byte> destination, pack::ReadDone done)
+                              { reads.emplace_back(page, destination, done); });
+        RandomParts parts(device, stream, random);
+        uint64_t completed = 0;
+        std::vector<uint32_t> wanted;
+        for (uint64_t serial = 1; serial < 400; ++serial)
+        {
+            completed = std::max(completed, serial - 1 - std::min<uint64_t>(random() % 4, serial - 1));
+            device.completeUpTo(completed);
+            const pack::StreamChanges changes = stream.beginFrame(serial, completed);
+            moves += changes.moves.size();
+            failures += changes.failed.size();
+            device.submit(serial, changes, stream);
+            parts.frame(serial, completed);
+            if (serial % 16 == 1)
+                wanted = {static_cast<uint32_t>(random() % graph.pageCount()),
+                          static_cast<uint32_t>(random() % graph.pageCount())};
+            for (const uint32_t page : wanted)
+                stream.request(page, uniform(random, 1, 16));
+            stream.schedule(serial);
+            if (random() % 64 == 0)
+                stream.retryFailed();
+            for (size_t count = random() % (reads.size() + 1); count > 0; --count, reads.pop_front())
+            {
+                const auto& [page, destination, done] = reads.front();
+                done(random() % 32 != 0 && view.decodePage(page, destination).ok());
+            }
+        }
+        device.completeUpTo(400);
+        freed += parts.freed;
+    }
+    EXPECT_GT(moves, trials(60));
+    EXPECT_GT(freed, trials(30));
+    EXPECT_GT(failures, kSanitized ? 0u : 5u);
 }
 
 TEST(PageStream, settlesWhenAFrameHasAllThatItWants)
