@@ -32,7 +32,7 @@ uint64_t poolBytes(const formats::PackView& pack)
 class PoolAllocator
 {
 public:
-    PoolAllocator(PoolLayout& layout, uint64_t max_bytes) : layout_(layout), end_(max_bytes / 16 * 4) {}
+    PoolAllocator(PoolLayout& layout, uint64_t max_bytes) : layout_(layout), end_(max_bytes / 4) {}
 
     std::optional<uint32_t> place(uint32_t bytes)
     {
@@ -79,6 +79,15 @@ Result<PoolLayout> placeAllPages(const formats::PackView& pack)
     return layout;
 }
 
+uint32_t findPoolSlotBytes(const pack::PageGraph& graph)
+{
+    uint32_t bytes = kSlotAlignment;
+    for (uint32_t page = 0; page < graph.pageCount(); ++page)
+        if (!graph.isPinned(page))
+            bytes = std::max(bytes, graph.sizeBytes(page));
+    return (bytes + kSlotAlignment - 1) / kSlotAlignment * kSlotAlignment;
+}
+
 Result<PoolLayout> placePinnedPages(const formats::PackView& pack, const pack::PageGraph& graph,
                                     uint64_t budget_bytes)
 {
@@ -97,22 +106,13 @@ Result<PoolLayout> placePinnedPages(const formats::PackView& pack, const pack::P
                     std::to_string(std::min(budget_bytes, pool_bytes))};
         layout.page_addresses[page] = *address;
     }
-    layout.slot_bytes = slotBytes(graph);
+    layout.slot_bytes = findPoolSlotBytes(graph);
     for (size_t count = graph.pageCount() - graph.pinned().size(); count > 0; --count)
         if (const auto address = placer.place(layout.slot_bytes))
             layout.slot_addresses.push_back(*address);
         else
             break;
     return layout;
-}
-
-uint32_t slotBytes(const pack::PageGraph& graph)
-{
-    uint32_t bytes = kSlotAlignment;
-    for (uint32_t page = 0; page < graph.pageCount(); ++page)
-        if (!graph.isPinned(page))
-            bytes = std::max(bytes, graph.sizeBytes(page));
-    return (bytes + kSlotAlignment - 1) / kSlotAlignment * kSlotAlignment;
 }
 
 pack::PoolParts movableParts(const formats::PackView& pack, const pack::PageGraph& graph,
@@ -123,7 +123,7 @@ pack::PoolParts movableParts(const formats::PackView& pack, const pack::PageGrap
     const uint64_t used = (graph.pinnedBytes() + budget_bytes / 8) / slice_bytes + 1;
     const uint64_t slices = countSlices(pack);
     return {.count = static_cast<uint32_t>(slices - std::min(slices, used)),
-            .max_slots = static_cast<uint32_t>(kSliceWords * 4 / slotBytes(graph))};
+            .max_slots = static_cast<uint32_t>(kSliceWords * 4 / findPoolSlotBytes(graph))};
 }
 
 Result<PoolLayout> placeExchange(const formats::PackView& pack, const pack::PageGraph& graph,

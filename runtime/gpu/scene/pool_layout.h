@@ -21,7 +21,7 @@ struct PoolLayout
 {
     std::vector<uint32_t> page_addresses; ///< per page: its first word, or kNoAddress
     std::vector<uint32_t> slot_addresses; ///< per slot: its first word
-    uint32_t slot_bytes = 0;              ///< the largest streamed page, at least 64 bytes
+    uint32_t slot_bytes = 0;              ///< from findPoolSlotBytes
     std::array<uint32_t, shared::kPoolSlices> slice_words{};
     uint32_t first_movable_slice = shared::kPoolSlices; ///< from here on slices come and go
 
@@ -31,14 +31,14 @@ struct PoolLayout
 /// Place every page. errors: device_limit.
 Result<PoolLayout> placeAllPages(const formats::PackView& pack);
 
-/// Place the pinned pages, and as many slots as the budget and the pool hold, but no more than there
-/// are other pages; bytes() <= budget_bytes. errors: streaming_budget if the pinned pages exceed the
-/// budget; device_limit.
+/// Return the bytes of a slot that holds any page that is not pinned.
+uint32_t findPoolSlotBytes(const pack::PageGraph& graph);
+
+/// Place the pinned pages, and as many slots as the budget and the pool hold, but no more than there are
+/// other pages; bytes() <= budget_bytes. errors: streaming_budget if the pinned pages exceed the budget;
+/// device_limit.
 Result<PoolLayout> placePinnedPages(const formats::PackView& pack, const pack::PageGraph& graph,
                                     uint64_t budget_bytes);
-
-/// Return the slot size of a pack: PoolLayout::slot_bytes.
-uint32_t slotBytes(const pack::PageGraph& graph);
 
 /// Return the slices that an exchange of memory may have beside those of always resident pages and
 /// slots.

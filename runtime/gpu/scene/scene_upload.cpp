@@ -344,14 +344,14 @@ Result<PoolLayout> createStreams(const Device& device, const formats::PackView& 
                                  const SceneOptions& options, Scene& scene)
 {
     const pack::PageGraph graph = pack::PageGraph::of(pack);
-    const pack::PageGraph pages = graph.withSlotSize(slotBytes(graph));
+    const pack::PageGraph pages = graph.withSlotSize(findPoolSlotBytes(graph));
     HEARTH_ASSIGN_OR_RETURN(const TextureSizes sizes,
                             measureTextures(device, pack, findUsedImages(pack), options.decode_textures));
     const pack::TextureGraph texture_graph(sizes);
     const pack::PageGraph& textures = texture_graph.nodes();
     const uint64_t budget = options.memory_budget;
-    std::optional<pack::ExchangeLayout> exchange =
-        pack::planExchange(budget, pages, slotBytes(graph), textures, movableParts(pack, graph, budget));
+    std::optional<pack::ExchangeLayout> exchange = pack::planExchange(
+        budget, pages, findPoolSlotBytes(graph), textures, movableParts(pack, graph, budget));
     const pack::MemoryShares shares = pack::divideMemory(budget, pages, textures);
     HEARTH_ASSIGN_OR_RETURN(PoolLayout pool, exchange ? placeExchange(pack, graph, *exchange)
                                                       : placePinnedPages(pack, graph, shares.geometry));

@@ -150,7 +150,7 @@ TEST(PoolLayout, holdsThePinnedPagesAndSlotsWithinTheBudget)
     const pack::PageGraph graph = pack::PageGraph::of(pack);
     const size_t others = graph.pageCount() - graph.pinned().size();
     ASSERT_GT(others, 3u);
-    for (uint64_t budget = graph.pinnedBytes() + 16; budget < 70000 * others; budget += 12345)
+    for (uint64_t budget = graph.pinnedBytes(); budget < 70000 * others; budget += 12345)
     {
         const auto layout = gpu::placePinnedPages(pack, graph, budget);
         ASSERT_TRUE(layout.ok());
@@ -158,7 +158,7 @@ TEST(PoolLayout, holdsThePinnedPagesAndSlotsWithinTheBudget)
         EXPECT_LE(layout->slot_addresses.size(), others);
         if (layout->slot_addresses.size() < others)
         {
-            EXPECT_GT(layout->bytes() + layout->slot_bytes + 16, budget) << "another slot would have fitted";
+            EXPECT_GT(layout->bytes() + layout->slot_bytes, budget) << "another slot would have fitted";
         }
         uint32_t end = 0;
         for (const uint32_t page : graph.pinned())
@@ -174,6 +174,10 @@ TEST(PoolLayout, holdsThePinnedPagesAndSlotsWithinTheBudget)
         for (uint32_t page = 0; page < graph.pageCount(); ++page)
             EXPECT_EQ(layout->page_addresses[page] == gpu::kNoAddress, !graph.isPinned(page));
     }
+    const auto whole =
+        gpu::placePinnedPages(pack, graph, graph.pinnedBytes() + others * gpu::findPoolSlotBytes(graph));
+    ASSERT_TRUE(whole.ok());
+    EXPECT_EQ(whole->slot_addresses.size(), others) << "the share of a budget that holds all pages";
     const auto refused = gpu::placePinnedPages(pack, graph, graph.pinnedBytes() - 1);
     ASSERT_FALSE(refused.ok());
     EXPECT_EQ(refused.error().issue, Issue::streaming_budget);
