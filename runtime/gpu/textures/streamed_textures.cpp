@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/textures/streamed_textures.h"
 
-#include "formats/gpu_shared/decisions.h"
+#include "formats/gpu_shared/texel_requests.h"
 #include "runtime/gpu/textures/image_layout.h"
 #include "runtime/gpu/vulkan/image_barrier.h"
 #include "runtime/pack/decoded_texels.h"
