@@ -12,7 +12,6 @@
 #define HEARTH_SHARED_DEFORMATION_H
 
 #include "formats/gpu_shared/occlusion.h"
-#include "formats/gpu_shared/texel_requests.h"
 
 HEARTH_SHARED_BEGIN
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "formats/gpu_shared/texel_requests.h"
+#include "formats/gpu_shared/decisions.h"
 #include "runtime/shaders/cull/page_requests.glsl"
 
 Group transformedGroup(uint instance, uint group) { return groups[group]; }

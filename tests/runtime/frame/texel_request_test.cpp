@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/base/double3.h"
 #include "formats/base/scale_bound.h"
-#include "formats/gpu_shared/texel_requests.h"
+#include "formats/gpu_shared/decisions.h"
 #include "runtime/frame/frame.h"
 #include "tests/support/sanitized.h"
 
