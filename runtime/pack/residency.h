@@ -109,6 +109,9 @@ public:
         return pages_[page].state == State::resident || pages_[page].state == State::evicting;
     }
 
+    /// True if the page could not be loaded, and retryFailed was not called since.
+    bool isFailed(uint32_t page) const { return pages_[page].state == State::failed; }
+
     /// True if nothing is pending: no load, no page that waits for its dependencies, no eviction.
     bool atRest() const
     {

@@ -7,6 +7,15 @@
 namespace hearth::pack
 {
 
+namespace
+{
+
+/// Factor on the priorities of mips that are resident or on their way: without it two mips of which the
+/// budget holds one could replace each other in turn as the eye moves.
+constexpr float kHysteresis = 1.25f;
+
+} // namespace
+
 Result<TextureStream> TextureStream::create(const formats::PackView& view, TextureGraph graph,
                                             const TextureStreamOptions& options, std::span<std::byte> staging)
 {
@@ -24,6 +33,7 @@ TextureStream::TextureStream(const formats::PackView& view, TextureGraph graph, 
       staging_(staging),
       graph_(std::move(graph)),
       residency_(std::move(residency)),
+      requests_(graph_.nodes().pageCount(), 0.0f),
       decoder_(std::make_unique<PieceDecoder>(view)),
       queue_(std::make_unique<CompletionQueue>(
           staging.size() / options.slot_bytes,
@@ -159,29 +169,87 @@ void TextureStream::forEachWanted(const TextureUse& use, float pixels_log2, cons
 {
     const uint32_t count = graph_.mipCount(use.image);
     for (uint32_t mip = finest_mips_[use.image]; mip + 1 < count; ++mip)
-        if (const float priority = mipPriority(use, pixels_log2, mip) / residency_.errorScale(); priority > 1)
+        if (const float priority = mipPriority(use, pixels_log2, mip); priority > 1)
             function(graph_.node({use.image, mip}), priority);
 }
 
 void TextureStream::request(const TextureUse& use, float pixels_log2)
 {
     forEachWanted(use, pixels_log2,
-                  [&](uint32_t node, float priority) { residency_.request(node, priority); });
+                  [&](uint32_t node, float priority)
+                  {
+                      if (requests_[node] == 0)
+                          requested_.push_back(node);
+                      requests_[node] = std::max(requests_[node], priority);
+                  });
 }
 
 uint32_t TextureStream::countMissing(const TextureUse& use, float pixels_log2) const
 {
     uint32_t missing = 0;
     forEachWanted(use, pixels_log2,
-                  [&](uint32_t node, float) { missing += residency_.isResident(node) ? 0u : 1u; });
+                  [&](uint32_t node, float priority)
+                  { missing += priority > error_scale_ && !residency_.isResident(node) ? 1u : 0u; });
     return missing;
+}
+
+/// List the requests of the round, those to choose first in front. Coarser mips come before finer ones.
+void TextureStream::listChoices()
+{
+    choices_.clear();
+    for (const uint32_t node : requested_)
+    {
+        const float priority = std::exchange(requests_[node], 0.0f);
+        const bool is_held = residency_.isResident(node) || findLoad(node) != loads_.end();
+        choices_.push_back({node, priority, is_held ? priority * kHysteresis : priority});
+    }
+    requested_.clear();
+    std::ranges::sort(choices_, [](const Choice& a, const Choice& b)
+                      { return a.weight != b.weight ? a.weight > b.weight : a.node < b.node; });
+}
+
+/// Pass on the requests that the budget holds together, greatest priority first. A mip without room is left
+/// out with the finer ones of its image; smaller mips of other images still come. Requests depend on the view
+/// alone, so the choice is right at once: no controller needs to feel its way.
+void TextureStream::chooseMips()
+{
+    listChoices();
+    cuts_.assign(pieces_.size(), Cut::none);
+    error_scale_ = 1;
+    uint64_t bytes = graph_.nodes().pinnedBytes();
+    size_t chosen = 0;
+    for (const Choice& choice : choices_)
+    {
+        Cut& cut = cuts_[graph_.mip(choice.node).image];
+        const uint64_t size = graph_.nodes().sizeBytes(choice.node);
+        if (cut == Cut::none && residency_.isFailed(choice.node))
+            cut = Cut::failed;
+        else if (cut == Cut::none && bytes + size > options_.budget_bytes)
+            cut = Cut::no_room;
+        if (cut == Cut::no_room)
+            error_scale_ = std::max(error_scale_, choice.priority);
+        if (cut != Cut::none)
+            continue;
+        bytes += size;
+        residency_.request(choice.node, choice.priority);
+        choices_[chosen++] = choice;
+    }
+    choices_.erase(choices_.begin() + static_cast<ptrdiff_t>(chosen), choices_.end());
+}
+
+/// True if no chosen mip waits for a load, or until mips that no view wants any more have lost their worth.
+bool TextureStream::isChoiceResident() const
+{
+    return std::ranges::all_of(choices_,
+                               [&](const Choice& choice) { return residency_.isResident(choice.node); });
 }
 
 void TextureStream::schedule(uint64_t feedback_serial)
 {
-    const float scale_before = residency_.errorScale();
+    const float scale_before = error_scale_;
+    chooseMips();
     const auto started = residency_.schedule();
-    if (!started.empty() || residency_.errorScale() != scale_before)
+    if (!started.empty() || error_scale_ != scale_before)
         changed_serial_ = serial_;
     for (const uint32_t node : started)
     {
@@ -193,7 +261,7 @@ void TextureStream::schedule(uint64_t feedback_serial)
                 load.pieces.push_back(piece);
         loads_.push_back(std::move(load));
     }
-    if (residency_.atRest() && feedback_serial >= changed_serial_)
+    if (residency_.atRest() && isChoiceResident() && feedback_serial >= changed_serial_)
         settled_serial_ = feedback_serial;
     startReads();
 }

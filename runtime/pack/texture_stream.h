@@ -52,8 +52,8 @@ struct TextureChanges
 
 /// Stream of the mips of a pack's images, called frame by frame from one thread; reads may end on others. The
 /// bytes of all images, also of those that replace others and of those that frames in flight read, never
-/// exceed the budget, unless it was just made smaller, as long as an image that was replaced in frame
-/// n lives until frame n has completed. Deterministic, as PageStream.
+/// exceed the budget, unless it was just made smaller, as long as an image that was replaced in frame n lives
+/// until frame n has completed, and an eviction takes it again while it lives. Deterministic, as PageStream.
 class TextureStream
 {
 public:
@@ -68,13 +68,18 @@ public:
     /// Begin a frame, as PageStream::beginFrame does.
     TextureChanges beginFrame(uint64_t serial, uint64_t completed_serial);
 
-    /// Request the mips that a view wants of an image. Those that the budget could not hold beside the tails
-    /// of all images are not asked for: they would blur all other images in vain.
+    /// Request the mips that a view wants of an image, but for those that the budget could not hold beside
+    /// the tails of all images.
     /// pixels_log2  as mipPriority
     void request(const TextureUse& use, float pixels_log2);
 
-    /// Return how many mips that a view wants of an image are not resident; pixels_log2 as above.
+    /// Return how many mips that a view wants of an image are not resident, though errorScale() asks for
+    /// them; pixels_log2 as above.
     uint32_t countMissing(const TextureUse& use, float pixels_log2) const;
+
+    /// Return the pixels that a texel of the last round's requests covers at most, >= 1: above 1 if the
+    /// budget does not hold them all.
+    float errorScale() const { return error_scale_; }
 
     /// End a round of requests, as PageStream::schedule does.
     void schedule(uint64_t feedback_serial);
@@ -102,6 +107,20 @@ private:
         bool is_failed = false;
         uint64_t copy_serial = 0; ///< last frame that copies a piece
     };
+    /// Requested mip.
+    struct Choice
+    {
+        uint32_t node;
+        float priority;
+        float weight; ///< by which it is chosen
+    };
+    /// Reason for which no finer mip of an image is chosen.
+    enum class Cut : uint8_t
+    {
+        none,
+        no_room,
+        failed,
+    };
     TextureStream(const formats::PackView& view, TextureGraph graph, Residency residency,
                   const TextureStreamOptions& options, std::span<std::byte> staging);
     void findFinestMips();
@@ -109,6 +128,9 @@ private:
     /// Call function(node, priority) for the mips that a view wants of an image.
     template <typename Function>
     void forEachWanted(const TextureUse& use, float pixels_log2, const Function& function) const;
+    void listChoices();
+    void chooseMips();
+    bool isChoiceResident() const;
     std::vector<Load>::iterator findLoad(uint32_t node);
     void endLoads(uint64_t completed_serial);
     uint64_t lag(uint64_t completed_serial);
@@ -120,6 +142,11 @@ private:
     std::span<std::byte> staging_;
     TextureGraph graph_;
     Residency residency_;
+    std::vector<float> requests_;     ///< [node] greatest priority of this round; 0: none
+    std::vector<uint32_t> requested_; ///< nodes with a request
+    std::vector<Choice> choices_;     ///< of the round: those that the budget holds
+    std::vector<Cut> cuts_;           ///< [image] in this round
+    float error_scale_ = 1;
     std::vector<uint32_t> finest_mips_;     ///< [image] that the budget can hold; of images that are streamed
     std::unique_ptr<PieceDecoder> decoder_; // the queue keeps its address
     std::unique_ptr<CompletionQueue> queue_; // readers keep its address

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/textures/streamed_textures.h"
 
-#include "formats/gpu_shared/texel_requests.h"
+#include "formats/gpu_shared/decisions.h"
 #include "runtime/gpu/textures/image_layout.h"
 #include "runtime/gpu/vulkan/image_barrier.h"
 #include "runtime/pack/decoded_texels.h"
@@ -240,6 +240,8 @@ void StreamedTextures::recordEvictions(VkCommandBuffer commands)
         if (std::ranges::find(changes_.evicted, pack::TextureMip{evicted.image, evicted.mip + 1}) !=
             changes_.evicted.end())
             continue;
+        if (bringBack(commands, evicted.image, evicted.mip + 1))
+            continue;
         std::optional<Held> smaller;
         if (beginImage(commands, smaller, evicted.image, evicted.mip + 1))
             replace(commands, evicted.image, std::move(*smaller));
@@ -304,7 +306,35 @@ void StreamedTextures::replace(VkCommandBuffer commands, uint32_t image, Held he
                VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_ACCESS_TRANSFER_WRITE_BIT,
                VK_ACCESS_SHADER_READ_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
                VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT);
-    retired_.push_back({std::move(*current), serial_});
+    exchange(image, std::move(held));
+}
+
+/// Put an image that was replaced, and that frames in flight still read, in its place again. A second one of
+/// the same mips would count against no node of the budget. Returns false if there is none.
+bool StreamedTextures::bringBack(VkCommandBuffer commands, uint32_t image, uint32_t first_mip)
+{
+    const auto retired = std::ranges::find_if(retired_, [&](const Retired& r)
+                                              { return r.image == image && r.held.first_mip == first_mip; });
+    if (retired == retired_.end())
+        return false;
+    Held held = std::move(retired->held);
+    retired_.erase(retired);
+    transition(device_, commands, images_[image].current->image, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+               VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_ACCESS_SHADER_READ_BIT, VK_ACCESS_TRANSFER_READ_BIT,
+               VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT);
+    transition(device_, commands, held.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
+               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_ACCESS_TRANSFER_READ_BIT,
+               VK_ACCESS_SHADER_READ_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
+               VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT);
+    exchange(image, std::move(held));
+    return true;
+}
+
+/// Make an image the current one, and keep the one before for the frames that read it.
+void StreamedTextures::exchange(uint32_t image, Held held)
+{
+    std::optional<Held>& current = images_[image].current;
+    retired_.push_back({std::move(*current), serial_, image});
     current = std::move(held);
     for (std::vector<bool>& rows : outdated_)
         for (const uint32_t row : rows_of_image_[image])
@@ -345,7 +375,7 @@ TextureStatistics StreamedTextures::statistics() const
             .bytes_on_device = on_device,
             .bytes_streamed = bytes_streamed_,
             .failures = failures_,
-            .error_scale = residency.errorScale()};
+            .error_scale = stream_.errorScale()};
 }
 
 } // namespace hearth::gpu

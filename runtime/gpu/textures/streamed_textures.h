@@ -95,8 +95,9 @@ private:
     };
     struct Retired
     {
-        Held held;
+        Held held;       ///< in layout TRANSFER_SRC_OPTIMAL
         uint64_t serial; ///< last frame that reads it
+        uint32_t image;
     };
 
     StreamedTextures(const Device& device, const formats::PackView& pack, StreamedTextureOptions options,
@@ -107,6 +108,8 @@ private:
     void recordUploads(VkCommandBuffer commands);
     void recordPublished(VkCommandBuffer commands);
     void replace(VkCommandBuffer commands, uint32_t image, Held held);
+    bool bringBack(VkCommandBuffer commands, uint32_t image, uint32_t first_mip);
+    void exchange(uint32_t image, Held held);
     void copyMips(VkCommandBuffer commands, const Held& from, const Held& to, uint32_t first_mip) const;
 
     const Device& device_;
