@@ -112,7 +112,7 @@ struct Totals
 {
     uint32_t frames = 0;
     uint64_t statistics_peak = 0; ///< bytes of the budget, as the scene tells them
-    uint64_t images_peak = 0;     ///< bytes of images on the device, as the meter counts them
+    uint64_t allocated_peak = 0;  ///< the same, as the meter counts images and the pool its slices
     uint64_t all_peak = 0;        ///< and of buffers
     uint32_t frames_beyond = 0;   ///< by either count
 };
@@ -156,8 +156,6 @@ public:
             }));
         scene_->staging.reset();
         meter_.resetPeak();
-        for (const gpu::Buffer& slice : scene_->buffers.pool)
-            geometry_bytes_ += slice.size;
         for (const gpu::Image* table :
              {&scene_->reflectance_table, &scene_->sky_table, &scene_->specular_table})
             table_bytes_ += table->bytes;
@@ -206,7 +204,7 @@ public:
     }
 
     const Totals& totals() const { return totals_; }
-    uint64_t geometryBytes() const { return geometry_bytes_; }
+    uint64_t geometryBytes() const { return scene_->buffers.pool.bytes(); }
     uint64_t bytesRead() const { return scene_->textures->statistics().bytes_streamed; }
 
 private:
@@ -232,9 +230,9 @@ private:
         const uint64_t images = meter_.peak().images - before_.images - table_bytes_;
         ++totals_.frames;
         totals_.statistics_peak = std::max(totals_.statistics_peak, told);
-        totals_.images_peak = std::max(totals_.images_peak, images);
+        totals_.allocated_peak = std::max(totals_.allocated_peak, images + geometryBytes());
         totals_.all_peak = std::max(totals_.all_peak, meter_.peak().all - before_.all);
-        totals_.frames_beyond += told > kBudget || images + geometry_bytes_ > kBudget ? 1 : 0;
+        totals_.frames_beyond += told > kBudget || images + geometryBytes() > kBudget ? 1 : 0;
         meter_.resetPeak();
     }
 
@@ -272,8 +270,7 @@ private:
     std::optional<gpu::FrameTargets> targets_;
     std::unique_ptr<gpu::Scene> scene_;
     bench::MemoryMeter::Bytes before_;
-    uint64_t geometry_bytes_ = 0; ///< buffers of the budget's share
-    uint64_t table_bytes_ = 0;    ///< images that are not streamed
+    uint64_t table_bytes_ = 0; ///< images that are not streamed
     std::map<std::string, uint32_t> images_by_name_;
     gpu::TextureSizes sizes_;
     uint64_t serial_ = 0, completed_ = 0;
@@ -332,8 +329,7 @@ Status fly(Flight& flight, bench::Judgement& judgement)
         totals.frames, static_cast<double>(flight.bytesRead()) / kMebi,
         static_cast<double>(flight.geometryBytes()) / kMebi,
         static_cast<double>(totals.statistics_peak) / kMebi,
-        static_cast<double>(totals.images_peak + flight.geometryBytes()) / kMebi,
-        static_cast<double>(totals.all_peak) / kMebi);
+        static_cast<double>(totals.allocated_peak) / kMebi, static_cast<double>(totals.all_peak) / kMebi);
     judgement.record("frames beyond the budget", totals.frames_beyond);
     return success();
 }
