@@ -1,4 +1,4 @@
-// Targets of error: stricter where errors are seen, by content where normals vary. Smooth areas keep off edges.
+// Targets of error are stricter where errors are seen. Smooth areas keep off edges.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/texels/smooth_cells.h"
 #include "cook/texels/target.h"
