@@ -103,6 +103,7 @@ inline constexpr std::array kAims = {
     Aim{"textures", "search / one encoding, 1024", Bound::at_most, 0.35},
     Aim{"textures", "search / one encoding, 2048", Bound::at_most, 0.1},
     Aim{"textures", "draft of the demo, s of processor", Bound::at_most, 5},
+    Aim{"mip-filters", "mean FLIP / that of a Kaiser filter", Bound::at_most, 1},
     Aim{"texture-pictures", "mean FLIP beside plain textures, whole", Bound::at_most, 0.01},
     Aim{"texture-pictures", "mean FLIP beside plain textures, close", Bound::at_most, 0.01},
     Aim{"texture-errors", "stored error off its recount", Bound::at_most, 1e-6},
