@@ -232,7 +232,7 @@ private:
         totals_.statistics_peak = std::max(totals_.statistics_peak, told);
         totals_.allocated_peak = std::max(totals_.allocated_peak, images + geometryBytes());
         totals_.all_peak = std::max(totals_.all_peak, meter_.peak().all - before_.all);
-        totals_.frames_beyond += told > kBudget || images + geometryBytes() > kBudget ? 1 : 0;
+        totals_.frames_beyond += told > kBudget || images + geometryBytes() > kBudget ? 1u : 0u;
         meter_.resetPeak();
     }
 
