@@ -26,6 +26,12 @@ struct ExchangeLayout
     uint32_t start_granules = 0;
     uint32_t parts = 0;      ///< movable parts of the pool
     uint32_t part_slots = 0; ///< maximum of each; all of them hold all granules
+
+    /// Return the bytes of textures while geometry has its fixed slots alone.
+    uint64_t maxTextureBytes() const
+    {
+        return budget_bytes - pinned_page_bytes - uint64_t{fixed_slots} * slot_bytes;
+    }
 };
 
 /// Parts of the pool that can be made.

@@ -4,6 +4,7 @@
 
 #include "formats/base/assert.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <numeric>
 #include <vector>

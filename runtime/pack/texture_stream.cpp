@@ -57,19 +57,18 @@ void TextureStream::setBudget(uint64_t bytes)
         return;
     options_.budget_bytes = bytes;
     residency_.setBudget(bytes, bytes);
-    findFinestMips();
     changed_serial_ = serial_;
 }
 
 void TextureStream::findFinestMips()
 {
-    finest_mips_.clear();
     const PageGraph& nodes = graph_.nodes();
+    const uint64_t budget_bytes = std::max(options_.max_budget_bytes, options_.budget_bytes);
     for (uint32_t image = 0; image < pieces_.size(); ++image)
     {
         uint32_t mip = std::max(graph_.mipCount(image), 1u) - 1;
         uint64_t bytes = nodes.pinnedBytes();
-        while (mip > 0 && (bytes += nodes.sizeBytes(graph_.node({image, mip - 1}))) <= options_.budget_bytes)
+        while (mip > 0 && (bytes += nodes.sizeBytes(graph_.node({image, mip - 1}))) <= budget_bytes)
             --mip;
         finest_mips_.push_back(mip);
     }

@@ -22,6 +22,7 @@ namespace hearth::pack
 struct TextureStreamOptions
 {
     uint64_t budget_bytes = 0;   ///< of all images that are streamed, and of those that replace them
+    uint64_t max_budget_bytes{}; ///< to which setBudget may raise it; >= budget_bytes, 0: not at all
     uint32_t max_loads = 32;     ///< mips in flight
     uint32_t slot_bytes = 0;     ///< of staging memory; holds every piece, decoded if need be
     std::vector<bool> decoded{}; ///< [image] pieces arrive in staging memory as decodeTexels; empty: none
@@ -68,8 +69,8 @@ public:
     /// Begin a frame, as PageStream::beginFrame does.
     TextureChanges beginFrame(uint64_t serial, uint64_t completed_serial);
 
-    /// Request the mips that a view wants of an image, but for those that the budget could not hold beside
-    /// the tails of all images.
+    /// Request the mips that a view wants of an image, but for those that the greatest budget could not hold
+    /// beside the tails of all images.
     /// pixels_log2  as mipPriority
     void request(const TextureUse& use, float pixels_log2);
 

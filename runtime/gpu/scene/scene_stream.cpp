@@ -114,10 +114,10 @@ void SceneStream::readRequests(uint64_t completed_serial)
 /// Begin a move of memory if the error scales of both sides call for it.
 void SceneStream::balanceMemory(uint64_t feedback_serial)
 {
-    const auto getDemand = [](const pack::Residency& residency) {
-        return pack::MemoryDemand{residency.errorScale(), residency.wantedBytes()};
-    };
-    if (exchange_->update(getDemand(pages_.residency()), getDemand(textures_->stream().residency())))
+    const pack::Residency& pages = pages_.residency();
+    const pack::TextureStream& textures = textures_->stream();
+    if (exchange_->update({pages.errorScale(), pages.wantedBytes()},
+                          {textures.errorScale(), textures.residency().wantedBytes()}))
     {
         for (uint32_t part = 0; part < exchange_->layout().parts; ++part)
             if (exchange_->isClosing(part))

@@ -367,6 +367,7 @@ Result<PoolLayout> createStreams(const Device& device, const formats::PackView& 
              .uses = listTextureUses(pack, sizes),
              .frame_count = options.frames_in_flight,
              .budget_bytes = exchange ? pack::MemoryExchange(*exchange).textureBytes() : shares.textures,
+             .max_budget_bytes = exchange ? exchange->maxTextureBytes() : shares.textures,
              .max_loads = options.stream.max_loads,
              .read = options.stream.read}));
     scene.stream->setTextures(*scene.textures);

@@ -120,6 +120,7 @@ StreamedTextures::create(const Device& device, const formats::PackView& pack, St
         pack::TextureStream stream,
         pack::TextureStream::create(pack, pack::TextureGraph(options.sizes),
                                     {.budget_bytes = options.budget_bytes,
+                                     .max_budget_bytes = options.max_budget_bytes,
                                      .max_loads = options.max_loads,
                                      .slot_bytes = slot_bytes,
                                      .decoded = std::move(decoded),

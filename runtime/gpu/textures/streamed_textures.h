@@ -30,6 +30,7 @@ struct StreamedTextureOptions
     std::vector<std::vector<pack::TextureUse>> uses; ///< [material row] of images that are streamed
     uint32_t frame_count = 1;                        ///< in flight
     uint64_t budget_bytes = 0;
+    uint64_t max_budget_bytes{}; ///< as pack::TextureStreamOptions
     uint32_t max_loads = 32;
     pack::PageReader read; ///< as pack::TextureStreamOptions
 };
