@@ -34,7 +34,7 @@ struct MipBounds
     SampleBounds finest;
     SampleBounds coarser;
 };
-constexpr MipBounds kUsualBounds{{64, 128}, {24, 32}}, kLargeBounds{{96, 768}, {32, 192}};
+constexpr MipBounds kUsualBounds{{64, 128}, {24, 32}}, kLargeBounds{{96, 320}, {32, 80}};
 
 // Blocks in a row of the image that sampled blocks are put into, and rows that a thread encodes at a time.
 constexpr size_t kMosaicColumns = 32;

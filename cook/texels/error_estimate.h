@@ -12,7 +12,7 @@ namespace hearth::texels
 enum class SampleSize
 {
     usual, ///< 64 to 128 of mip 0, 24 to 32 of each other
-    large, ///< 96 to 768, 32 to 192
+    large, ///< 96 to 320, 32 to 80
 };
 
 /// Estimate the error of an image in the format of a candidate, and of its smooth texels.
