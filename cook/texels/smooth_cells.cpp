@@ -17,6 +17,7 @@ namespace
 
 constexpr uint64_t kMinSmoothPart = 2; // one of so many cells is smooth
 constexpr int kMaxSpan = 4 * 257;      // of 65535
+constexpr uint32_t kMinEdgeCells = 3;  // beside a cell; a spot, such as a star, hides nothing
 
 /// Return whether no channel that is read spans more than kMaxSpan in a cell.
 bool isFlat(std::span<const DecodedTexel> texels, uint32_t width, Channels channels, uint64_t column)
@@ -72,12 +73,14 @@ SmoothCells::SmoothCells(const PlainImage& image, uint32_t mip)
     for (uint64_t row = 0; row < rows; ++row)
         for (uint64_t column = 0; column < columns_; ++column)
         {
-            bool smooth = true;
-            for (uint64_t y = row - std::min<uint64_t>(row, 1); y < std::min(row + 2, rows); ++y)
-                for (uint64_t x = column - std::min<uint64_t>(column, 1); x < std::min(column + 2, columns_);
-                     ++x)
-                    smooth = smooth && is_flat[y * columns_ + x] != 0;
-            is_smooth_[row * columns_ + column] = smooth;
+            // the border repeats, so that an edge counts as much there
+            uint32_t rough = 0;
+            for (const uint64_t y : {row - std::min<uint64_t>(row, 1), row, std::min(row + 1, rows - 1)})
+                for (const uint64_t x :
+                     {column - std::min<uint64_t>(column, 1), column, std::min(column + 1, columns_ - 1)})
+                    rough += is_flat[y * columns_ + x] == 0 ? 1u : 0u;
+            is_smooth_[row * columns_ + column] =
+                is_flat[row * columns_ + column] != 0 && rough < kMinEdgeCells;
         }
 }
 

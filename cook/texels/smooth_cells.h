@@ -15,7 +15,8 @@ namespace hearth::texels
 inline constexpr uint32_t kCellSide = 4;
 
 /// Cells of 4 x 4 texels of a mip, from its corner on. A cell is smooth if no channel that is read spans more
-/// than 4 of 255 codes in it, nor in any of the eight cells around it: an edge hides errors beside it.
+/// than 4 of 255 codes in it, and if fewer than three of the eight cells around it span more: an edge hides
+/// errors beside it, a spot does not.
 class SmoothCells
 {
 public:
