@@ -147,8 +147,9 @@ typedef struct hearth_memory_allocation
 } hearth_memory_allocation;
 
 /* Device memory allocator of the caller: both functions or none. Called by calls that create and destroy
- * objects, on their thread. `allocate` returns memory of a type that `needs` allows, with the properties of
- * the kind. When memory is freed, nothing bound to it is in use any more. */
+ * objects, on their thread, and for scenes with a memory_budget by those that begin and record a frame.
+ * `allocate` returns memory of a type that `needs` allows, with the properties of the kind. When memory is
+ * freed, nothing bound to it is in use any more. */
 typedef struct hearth_memory_hooks
 {
     void* user;

@@ -37,8 +37,9 @@ struct MemoryAllocation
     void* allocation = nullptr;  ///< private to the allocator
 };
 
-/// Called while scenes, targets and passes are created and destroyed, on the calling thread; never while a
-/// frame is recorded. Set both functions, or neither: then memory comes in blocks from vkAllocateMemory.
+/// Called on the calling thread while scenes, targets and passes are created and destroyed; of scenes with a
+/// memory budget also while a frame begins or is recorded, for streamed images and slices of the pool. Set
+/// both functions, or neither: then memory comes in blocks from vkAllocateMemory.
 struct MemoryHooks
 {
     void* user = nullptr;

@@ -2,6 +2,7 @@
 // never exceed the budget together, and moves end.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/pack/memory_exchange.h"
+#include "tests/runtime/pack/star_graph.h"
 #include "tests/support/sanitized.h"
 
 #include <gtest/gtest.h>
@@ -16,16 +17,6 @@ namespace
 using pack::ExchangeLayout;
 using pack::MemoryExchange;
 
-/// Graph of one pinned node, and of nodes that need it.
-pack::PageGraph makeGraph(uint32_t pinned_bytes, uint32_t node_bytes, uint32_t count)
-{
-    std::vector<pack::PageNode> nodes(count + 1);
-    nodes[0] = {.size_bytes = pinned_bytes, .holds_root = true, .needs = {}, .companions = {}};
-    for (uint32_t i = 1; i <= count; ++i)
-        nodes[i] = {.size_bytes = node_bytes, .holds_root = false, .needs = {0}, .companions = {}};
-    return pack::PageGraph(nodes);
-}
-
 uint64_t poolBytes(const ExchangeLayout& layout, uint64_t moving_slots)
 {
     return layout.pinned_page_bytes + (layout.fixed_slots + moving_slots) * layout.slot_bytes;
@@ -33,14 +24,14 @@ uint64_t poolBytes(const ExchangeLayout& layout, uint64_t moving_slots)
 
 TEST(PlanExchange, isForBudgetsThatDoNotHoldEverything)
 {
-    const auto pages = makeGraph(1000, 100, 50), textures = makeGraph(2000, 500, 10);
+    const auto pages = makeStarGraph(1000, 100, 50), textures = makeStarGraph(2000, 500, 10);
     const pack::PoolParts parts{.count = 3, .max_slots = 1000};
     EXPECT_FALSE(pack::planExchange(13'000, pages, 100, textures, parts)) << "it holds everything";
     EXPECT_TRUE(pack::planExchange(12'999, pages, 100, textures, parts));
     EXPECT_FALSE(pack::planExchange(12'999, pages, 100, textures, {})) << "no part can be made";
     EXPECT_FALSE(pack::planExchange(3'000, pages, 100, textures, parts)) << "nothing moves";
-    EXPECT_FALSE(pack::planExchange(9'000, makeGraph(1000, 100, 0), 100, textures, parts));
-    EXPECT_FALSE(pack::planExchange(9'000, pages, 100, makeGraph(2000, 500, 0), parts));
+    EXPECT_FALSE(pack::planExchange(9'000, makeStarGraph(1000, 100, 0), 100, textures, parts));
+    EXPECT_FALSE(pack::planExchange(9'000, pages, 100, makeStarGraph(2000, 500, 0), parts));
 }
 
 TEST(PlanExchange, leavesEachSideAnEighthOrAllThatItCanUse)
@@ -51,8 +42,8 @@ TEST(PlanExchange, leavesEachSideAnEighthOrAllThatItCanUse)
     for (int trial = 0; trial < 2000; ++trial)
     {
         const uint32_t slot = 64 * (1 + draw(8)), page_count = draw(300), mip_count = draw(40);
-        const auto pages = makeGraph(draw(5000), slot, page_count);
-        const auto textures = makeGraph(draw(5000), 1 + draw(4000), mip_count);
+        const auto pages = makeStarGraph(draw(5000), slot, page_count);
+        const auto textures = makeStarGraph(draw(5000), 1 + draw(4000), mip_count);
         const uint64_t pinned = pages.pinnedBytes() + textures.pinnedBytes();
         const uint64_t budget = pinned + draw(200'000);
         const pack::PoolParts parts{.count = 1 + draw(3), .max_slots = 20 + draw(200)};

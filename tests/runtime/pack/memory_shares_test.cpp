@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/pack/memory_shares.h"
+#include "tests/runtime/pack/star_graph.h"
 
 #include <gtest/gtest.h>
 #include <random>
@@ -12,19 +13,9 @@ namespace
 
 using pack::MemoryShares;
 
-/// Graph of one pinned node, and of nodes that need it.
-pack::PageGraph makeGraph(uint32_t pinned_bytes, uint32_t node_bytes, uint32_t count)
-{
-    std::vector<pack::PageNode> nodes(count + 1);
-    nodes[0] = {.size_bytes = pinned_bytes, .holds_root = true, .needs = {}, .companions = {}};
-    for (uint32_t i = 1; i <= count; ++i)
-        nodes[i] = {.size_bytes = node_bytes, .holds_root = false, .needs = {0}, .companions = {}};
-    return pack::PageGraph(nodes);
-}
-
 TEST(MemoryShares, enoughForAllIsAllForBoth)
 {
-    const auto pages = makeGraph(10, 64, 20), textures = makeGraph(30, 100, 7);
+    const auto pages = makeStarGraph(10, 64, 20), textures = makeStarGraph(30, 100, 7);
     const uint64_t all = 10 + 64 * 20 + 30 + 100 * 7;
     const MemoryShares shares = divideMemory(all, pages, textures);
     EXPECT_EQ(shares.geometry, 10u + 64 * 20);
@@ -35,18 +26,19 @@ TEST(MemoryShares, enoughForAllIsAllForBoth)
 TEST(MemoryShares, tooLittleIsHalved)
 {
     // beyond the 300 bytes that are always resident
-    const MemoryShares shares = divideMemory(1300, makeGraph(100, 100, 30), makeGraph(200, 100, 10));
+    const MemoryShares shares = divideMemory(1300, makeStarGraph(100, 100, 30), makeStarGraph(200, 100, 10));
     EXPECT_EQ(shares.geometry, 100u + 500);
     EXPECT_EQ(shares.textures, 200u + 500);
 }
 
 TEST(MemoryShares, whatOneSideCannotUseIsForTheOther)
 {
-    const MemoryShares few_pages = divideMemory(100'000, makeGraph(0, 1000, 9), makeGraph(0, 1000, 10'000));
+    const MemoryShares few_pages =
+        divideMemory(100'000, makeStarGraph(0, 1000, 9), makeStarGraph(0, 1000, 10'000));
     EXPECT_EQ(few_pages.geometry, 9'000u);
     EXPECT_EQ(few_pages.textures, 91'000u);
     const MemoryShares few_textures =
-        divideMemory(100'000, makeGraph(0, 1000, 10'000), makeGraph(0, 1000, 9));
+        divideMemory(100'000, makeStarGraph(0, 1000, 10'000), makeStarGraph(0, 1000, 9));
     EXPECT_EQ(few_textures.textures, 9'000u);
     EXPECT_EQ(few_textures.geometry, 91'000u);
 }
@@ -57,8 +49,8 @@ TEST(MemoryShares, neverExceedTheBudget)
     const auto draw = [&](uint32_t end) { return static_cast<uint32_t>(random() % end); };
     for (int i = 0; i < 1000; ++i)
     {
-        const auto pages = makeGraph(draw(100), 1 + draw(100), draw(20));
-        const auto textures = makeGraph(draw(100), 1 + draw(100), draw(20));
+        const auto pages = makeStarGraph(draw(100), 1 + draw(100), draw(20));
+        const auto textures = makeStarGraph(draw(100), 1 + draw(100), draw(20));
         const uint64_t budget = 200 + draw(3000);
         const MemoryShares shares = divideMemory(budget, pages, textures);
         EXPECT_EQ(shares.geometry + shares.textures, budget);
