@@ -32,7 +32,7 @@ struct ContextKey
     astcenc_profile profile;
     uint32_t flags;
     float effort;
-    float search_limit; ///< decibels of a block from which on libastcenc is content, if its own are less
+    float search_limit; ///< decibels of a block from which on libastcenc is content, if its own are fewer
 
     bool operator==(const ContextKey&) const = default;
 };
@@ -59,26 +59,28 @@ astcenc_profile findProfile(TexelCoding coding)
     }
 }
 
-/// Return the decibels that a block of an image with smooth areas must have. libastcenc is content with fewer
-/// the larger a block is, 40 dB at medium effort and 6x6, and leaves the seams that a finer format would have
-/// to avoid. Draft stays quick.
-float findSearchLimit(Effort effort)
+/// Return the decibels that a block with smooth cells must have. libastcenc is content with fewer the larger a
+/// block is, 40 dB at medium effort and 6x6, and leaves the seams that a finer format would have to avoid.
+/// Draft stays quick.
+float findSmoothLimit(Effort effort)
 {
     constexpr float kLimits[] = {0, 50, 55};
     return kLimits[static_cast<uint32_t>(effort)];
 }
 
-ContextKey makeKey(const Candidate& candidate, const StoredTexels& texels, Effort effort)
+ContextKey makeKey(const Candidate& candidate, ImageRole role, Effort effort, float search_limit)
 {
-    ContextKey key{
-        candidate.traits->block_width,         candidate.traits->block_height,
-        findProfile(candidate.traits->coding), 0,
-        findEffort(effort, texels.role),       candidate.has_smooth_areas ? findSearchLimit(effort) : 0.0f};
-    if (texels.role == ImageRole::normal)
+    ContextKey key{candidate.traits->block_width,
+                   candidate.traits->block_height,
+                   findProfile(candidate.traits->coding),
+                   0,
+                   findEffort(effort, role),
+                   search_limit};
+    if (role == ImageRole::normal)
         key.flags |= ASTCENC_FLG_MAP_NORMAL;
     else if (candidate.has_two_parts)
         key.flags |= ASTCENC_FLG_MAP_MASK;
-    if (texels.role == ImageRole::cutout)
+    if (role == ImageRole::cutout)
         key.flags |= ASTCENC_FLG_USE_ALPHA_WEIGHT;
     return key;
 }
@@ -119,43 +121,113 @@ astcenc_context* findContext(const ContextKey& key)
     return contexts.front().second.get();
 }
 
-template <typename T, typename Convert>
-std::vector<T> convertTexels(const StoredTexels& texels, const Convert& convert)
+/// Texels as libastcenc reads them.
+class AstcImage
 {
-    std::vector<T> converted;
-    converted.reserve(texels.texels.size() * 4);
-    for (const DecodedTexel& texel : texels.texels)
-        for (const uint16_t channel : texel)
-            converted.push_back(convert(channel));
-    return converted;
+public:
+    AstcImage(const StoredTexels& texels, bool is_light)
+    {
+        if (is_light)
+            convert(texels, wide_, [](uint16_t c) { return std::max(floatFromHalf(c), 0.0f); });
+        else if (texels.is_narrow)
+            convert(texels, narrow_, [](uint16_t c) { return narrowUnorm(c); });
+        else
+            convert(texels, wide_, [](uint16_t c) { return static_cast<float>(c) / 65535.0f; });
+        slice_ = wide_.empty() ? static_cast<void*>(narrow_.data()) : wide_.data();
+        image_ = {texels.width, texels.height, 1, wide_.empty() ? ASTCENC_TYPE_U8 : ASTCENC_TYPE_F32,
+                  &slice_};
+    }
+    AstcImage(const AstcImage&) = delete;
+    AstcImage& operator=(const AstcImage&) = delete;
+
+    /// blocks  of all texels: written
+    void encode(const ContextKey& key, std::span<std::byte> blocks)
+    {
+        constexpr astcenc_swizzle kSame{ASTCENC_SWZ_R, ASTCENC_SWZ_G, ASTCENC_SWZ_B, ASTCENC_SWZ_A};
+        astcenc_context* const context = findContext(key);
+        const astcenc_error encoded = astcenc_compress_image(
+            context, &image_, &kSame, reinterpret_cast<uint8_t*>(blocks.data()), blocks.size(), 0);
+        HEARTH_ASSERT(encoded == ASTCENC_SUCCESS);
+        const astcenc_error reset = astcenc_compress_reset(context);
+        HEARTH_ASSERT(reset == ASTCENC_SUCCESS);
+    }
+
+private:
+    template <typename T, typename Convert>
+    static void convert(const StoredTexels& texels, std::vector<T>& converted, const Convert& channel)
+    {
+        converted.reserve(texels.texels.size() * 4);
+        for (const DecodedTexel& texel : texels.texels)
+            for (const uint16_t value : texel)
+                converted.push_back(channel(value));
+    }
+
+    std::vector<uint8_t> narrow_;
+    std::vector<float> wide_;
+    void* slice_;
+    astcenc_image image_;
+};
+
+std::vector<std::byte> encodeAll(const Candidate& candidate, const StoredTexels& texels, Effort effort,
+                                 float search_limit)
+{
+    std::vector<std::byte> blocks(
+        static_cast<size_t>(formats::mipBytes(*candidate.traits, texels.width, texels.height)));
+    AstcImage(texels, candidate.traits->family == TexelFamily::astc_hdr)
+        .encode(makeKey(candidate, texels.role, effort, search_limit), blocks);
+    return blocks;
+}
+
+/// Return blocks of an image one below the other. Texels beyond the image's edge repeat the edge, as
+/// libastcenc sees them in the image.
+StoredTexels stackBlocks(const StoredTexels& texels, const TexelFormatTraits& traits,
+                         std::span<const size_t> blocks)
+{
+    StoredTexels stack{.width = traits.block_width,
+                       .height = traits.block_height * static_cast<uint32_t>(blocks.size()),
+                       .role = texels.role,
+                       .is_narrow = texels.is_narrow};
+    stack.texels.reserve(size_t{stack.width} * stack.height);
+    const size_t columns = (texels.width + traits.block_width - 1) / traits.block_width;
+    for (const size_t block : blocks)
+        for (size_t y = block / columns * traits.block_height, rows = traits.block_height; rows > 0;
+             ++y, --rows)
+        {
+            const auto row =
+                std::span(texels.texels)
+                    .subspan(std::min<size_t>(y, texels.height - 1) * texels.width, texels.width);
+            const size_t left = block % columns * traits.block_width;
+            for (size_t x = left; x < left + traits.block_width; ++x)
+                stack.texels.push_back(row[std::min<size_t>(x, texels.width - 1)]);
+        }
+    return stack;
 }
 
 } // namespace
 
 std::vector<std::byte> encodeAstc(const Candidate& candidate, const StoredTexels& texels, Effort effort)
 {
-    const bool is_light = candidate.traits->family == TexelFamily::astc_hdr;
-    HEARTH_ASSERT(is_light || candidate.traits->family == TexelFamily::astc);
-    std::vector<uint8_t> narrow;
-    std::vector<float> wide;
-    if (is_light)
-        wide = convertTexels<float>(texels, [](uint16_t c) { return std::max(floatFromHalf(c), 0.0f); });
-    else if (texels.is_narrow)
-        narrow = convertTexels<uint8_t>(texels, [](uint16_t c) { return narrowUnorm(c); });
-    else
-        wide = convertTexels<float>(texels, [](uint16_t c) { return static_cast<float>(c) / 65535.0f; });
-    void* slice = wide.empty() ? static_cast<void*>(narrow.data()) : wide.data();
-    astcenc_image image{texels.width, texels.height, 1, wide.empty() ? ASTCENC_TYPE_U8 : ASTCENC_TYPE_F32,
-                        &slice};
-    std::vector<std::byte> blocks(
-        static_cast<size_t>(formats::mipBytes(*candidate.traits, texels.width, texels.height)));
-    constexpr astcenc_swizzle kSame{ASTCENC_SWZ_R, ASTCENC_SWZ_G, ASTCENC_SWZ_B, ASTCENC_SWZ_A};
-    astcenc_context* const context = findContext(makeKey(candidate, texels, effort));
-    const astcenc_error encoded = astcenc_compress_image(
-        context, &image, &kSame, reinterpret_cast<uint8_t*>(blocks.data()), blocks.size(), 0);
-    HEARTH_ASSERT(encoded == ASTCENC_SUCCESS);
-    const astcenc_error reset = astcenc_compress_reset(context);
-    HEARTH_ASSERT(reset == ASTCENC_SUCCESS);
+    const TexelFormatTraits& traits = *candidate.traits;
+    HEARTH_ASSERT(traits.family == TexelFamily::astc || traits.family == TexelFamily::astc_hdr);
+    const float smooth_limit = findSmoothLimit(effort);
+    std::vector<size_t> smooth, rough;
+    for (size_t block = 0; block < texels.is_smooth.size(); ++block)
+        (texels.is_smooth[block] != 0 && smooth_limit > 0 ? smooth : rough).push_back(block);
+    if (smooth.empty())
+        return encodeAll(candidate, texels, effort, 0);
+    if (rough.empty())
+        return encodeAll(candidate, texels, effort, smooth_limit);
+    std::vector<std::byte> blocks(texels.is_smooth.size() * traits.block_bytes);
+    const auto encodeSome = [&](std::span<const size_t> some, float search_limit)
+    {
+        const std::vector<std::byte> encoded =
+            encodeAll(candidate, stackBlocks(texels, traits, some), effort, search_limit);
+        for (size_t i = 0; i < some.size(); ++i)
+            std::ranges::copy(std::span(encoded).subspan(i * traits.block_bytes, traits.block_bytes),
+                              blocks.begin() + static_cast<ptrdiff_t>(some[i] * traits.block_bytes));
+    };
+    encodeSome(smooth, smooth_limit);
+    encodeSome(rough, 0);
     return blocks;
 }
 

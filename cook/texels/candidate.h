@@ -21,7 +21,6 @@ struct Candidate
     std::array<uint8_t, 4> stored{}; ///< image channel of each stored channel: 0 to 3, or kStoredOne
     std::array<formats::Swizzle, 4> swizzle{};
     bool has_two_parts = false; ///< the stored channels are red, three times, and alpha: independent numbers
-    bool has_smooth_areas = false; ///< of the image, set by the search: encoders go on where errors are small
 
     double bitsPerTexel() const
     {

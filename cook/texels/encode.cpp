@@ -72,7 +72,19 @@ void scaleAlpha(float scale, bool is_narrow, std::span<DecodedTexel> texels)
     }
 }
 
-std::vector<std::byte> encodeStripes(const PlainImage& image, const Candidate& candidate, Effort effort,
+/// Return, for each block of a stripe, whether it has smooth cells.
+std::vector<uint8_t> findSmoothBlocks(std::span<const SmoothCells> smooth, const TexelFormatTraits& traits,
+                                      const Stripe& stripe, uint32_t width)
+{
+    std::vector<uint8_t> is_smooth;
+    for (uint32_t y = stripe.first_row; y < stripe.first_row + stripe.rows; y += traits.block_height)
+        for (uint32_t x = 0; x < width; x += traits.block_width)
+            is_smooth.push_back(hasSmoothCells(smooth, stripe.mip, x, y, traits));
+    return is_smooth;
+}
+
+std::vector<std::byte> encodeStripes(const PlainImage& image, std::span<const SmoothCells> smooth,
+                                     const Candidate& candidate, Effort effort,
                                      std::span<const Stripe> stripes, float alpha_scale)
 {
     std::vector<std::byte> encoded(stripes.back().first_byte + stripes.back().bytes);
@@ -85,8 +97,10 @@ std::vector<std::byte> encodeStripes(const PlainImage& image, const Candidate& c
             std::vector<DecodedTexel> texels = decodeRows(image, stripe.mip, stripe.first_row, stripe.rows);
             if (alpha_scale != 1)
                 scaleAlpha(alpha_scale, texelBytes(image.record.format) == 4, texels);
-            const std::vector<std::byte> bytes = encodeTexels(
-                candidate, arrangeChannels(image, candidate, width, stripe.rows, texels), effort);
+            StoredTexels stored = arrangeChannels(image, candidate, width, stripe.rows, texels);
+            if (!smooth.empty())
+                stored.is_smooth = findSmoothBlocks(smooth, *candidate.traits, stripe, width);
+            const std::vector<std::byte> bytes = encodeTexels(candidate, stored, effort);
             HEARTH_ASSERT(bytes.size() == stripe.bytes);
             std::ranges::copy(bytes, encoded.begin() + static_cast<ptrdiff_t>(stripe.first_byte));
         });
@@ -227,17 +241,18 @@ std::vector<std::byte> encodeTexels(const Candidate& candidate, const StoredTexe
     return encodeBlocks(candidate, texels, effort);
 }
 
-std::vector<std::byte> encodeImage(const PlainImage& image, const Candidate& candidate, Effort effort)
+std::vector<std::byte> encodeImage(const PlainImage& image, std::span<const SmoothCells> smooth,
+                                   const Candidate& candidate, Effort effort)
 {
-    return encodeStripes(image, candidate, effort,
+    return encodeStripes(image, smooth, candidate, effort,
                          listStripes(image, *candidate.traits, 0, image.record.mip_count), 1);
 }
 
-std::vector<std::byte> encodeMip(const PlainImage& image, const Candidate& candidate, Effort effort,
-                                 uint32_t mip, float alpha_scale)
+std::vector<std::byte> encodeMip(const PlainImage& image, std::span<const SmoothCells> smooth,
+                                 const Candidate& candidate, Effort effort, uint32_t mip, float alpha_scale)
 {
-    return encodeStripes(image, candidate, effort, listStripes(image, *candidate.traits, mip, mip + 1),
-                         alpha_scale);
+    return encodeStripes(image, smooth, candidate, effort,
+                         listStripes(image, *candidate.traits, mip, mip + 1), alpha_scale);
 }
 
 ImageError measureError(const PlainImage& image, std::span<const SmoothCells> smooth,

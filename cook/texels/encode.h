@@ -23,6 +23,8 @@ struct StoredTexels
     std::vector<formats::DecodedTexel> texels{}; ///< rows from top to bottom
     formats::ImageRole role = formats::ImageRole::none;
     bool is_narrow = true; ///< all values are multiples of 257: 8 bits
+    std::vector<uint8_t>
+        is_smooth{}; ///< [block]: it has smooth cells, where more is seen; or empty: none has
 };
 
 /// Return texels with the channels that a candidate stores.
@@ -37,11 +39,13 @@ formats::DecodedTexel readStored(const Candidate& candidate, const formats::Deco
 std::vector<std::byte> encodeTexels(const Candidate& candidate, const StoredTexels& texels, Effort effort);
 
 /// Encode all mips, finest first, tightly packed. Same bytes for any number of threads.
-std::vector<std::byte> encodeImage(const PlainImage& image, const Candidate& candidate, Effort effort);
+/// smooth  as findSmoothCells
+std::vector<std::byte> encodeImage(const PlainImage& image, std::span<const SmoothCells> smooth,
+                                   const Candidate& candidate, Effort effort);
 
 /// Encode one mip with its alpha multiplied by a scale. Same bytes for any number of threads.
-std::vector<std::byte> encodeMip(const PlainImage& image, const Candidate& candidate, Effort effort,
-                                 uint32_t mip, float alpha_scale);
+std::vector<std::byte> encodeMip(const PlainImage& image, std::span<const SmoothCells> smooth,
+                                 const Candidate& candidate, Effort effort, uint32_t mip, float alpha_scale);
 
 /// Loss of encoding an image.
 struct ImageError

@@ -90,6 +90,23 @@ Mosaic makeMosaic(const PlainImage& image, const TexelFormatTraits& traits, cons
     return mosaic;
 }
 
+size_t countBlocks(const Mosaic& mosaic, const TexelFormatTraits& traits)
+{
+    return size_t{mosaic.width / traits.block_width} * (mosaic.height / traits.block_height);
+}
+
+/// Return, for each block of a piece's mosaic, whether it has smooth cells in the mip.
+/// columns  blocks in a row of the mip
+std::vector<uint8_t> findSmoothBlocks(std::span<const SmoothCells> smooth, const TexelFormatTraits& traits,
+                                      const Piece& piece, uint64_t columns, size_t count)
+{
+    std::vector<uint8_t> is_smooth(count); // what fills up the last row counts for nothing
+    for (size_t i = 0; i < piece.blocks.size(); ++i)
+        is_smooth[i] = hasSmoothCells(smooth, piece.mip, piece.blocks[i].block % columns * traits.block_width,
+                                      piece.blocks[i].block / columns * traits.block_height, traits);
+    return is_smooth;
+}
+
 /// Sums of squares of each channel, of all blocks that the sampled ones stand for.
 struct SquareSums
 {
@@ -111,11 +128,13 @@ SquareSums measurePiece(const PlainImage& image, std::span<const SmoothCells> sm
 {
     const TexelFormatTraits& traits = *candidate.traits;
     const Mosaic mosaic = makeMosaic(image, traits, piece);
-    const std::vector<std::byte> blocks = encodeTexels(
-        candidate, arrangeChannels(image, candidate, mosaic.width, mosaic.height, mosaic.texels), effort);
-    const std::vector<DecodedTexel> stored = decodeMip(traits, mosaic.width, mosaic.height, blocks);
     const MipExtent extent = mipExtent(image.record, piece.mip);
     const uint64_t columns = (extent.width + traits.block_width - 1u) / traits.block_width;
+    StoredTexels arranged = arrangeChannels(image, candidate, mosaic.width, mosaic.height, mosaic.texels);
+    if (!smooth.empty())
+        arranged.is_smooth = findSmoothBlocks(smooth, traits, piece, columns, countBlocks(mosaic, traits));
+    const std::vector<std::byte> blocks = encodeTexels(candidate, arranged, effort);
+    const std::vector<DecodedTexel> stored = decodeMip(traits, mosaic.width, mosaic.height, blocks);
     SquareSums sums;
     for (size_t i = 0; i < piece.blocks.size(); ++i)
     {
@@ -167,10 +186,9 @@ std::vector<Piece> listPieces(const ImageDetail& detail, const TexelFormatTraits
 
 } // namespace
 
-ImageError estimateError(const PlainImage& image, const ImageDetail& detail, Candidate candidate,
+ImageError estimateError(const PlainImage& image, const ImageDetail& detail, const Candidate& candidate,
                          Effort effort, SampleSize size)
 {
-    candidate.has_smooth_areas = !detail.smooth.empty();
     const std::vector<Piece> pieces = listPieces(detail, *candidate.traits, size);
     std::vector<SquareSums> sums(pieces.size());
     tbb::parallel_for(size_t{0}, pieces.size(),

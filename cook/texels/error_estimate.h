@@ -16,7 +16,7 @@ enum class SampleSize
 };
 
 /// Estimate the error of an image in the format of a candidate, and of its smooth texels.
-ImageError estimateError(const PlainImage& image, const ImageDetail& detail, Candidate candidate,
+ImageError estimateError(const PlainImage& image, const ImageDetail& detail, const Candidate& candidate,
                          Effort effort, SampleSize size);
 
 } // namespace hearth::texels

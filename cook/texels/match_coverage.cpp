@@ -67,8 +67,10 @@ double interpolateScale(const Trial& too_low, const Trial& too_high)
 class MipCoverage
 {
 public:
-    MipCoverage(const PlainImage& image, const Candidate& candidate, Effort effort, uint32_t mip)
+    MipCoverage(const PlainImage& image, std::span<const SmoothCells> smooth, const Candidate& candidate,
+                Effort effort, uint32_t mip)
         : image_(image),
+          smooth_(smooth),
           candidate_(candidate),
           effort_(effort),
           mip_(mip),
@@ -104,7 +106,7 @@ public:
             if (next == trial.scale)
                 return;
             trial.scale = next;
-            tried = encodeMip(image_, candidate_, effort_, mip_, static_cast<float>(next));
+            tried = encodeMip(image_, smooth_, candidate_, effort_, mip_, static_cast<float>(next));
         }
     }
 
@@ -138,6 +140,7 @@ private:
     }
 
     const PlainImage& image_;
+    std::span<const SmoothCells> smooth_;
     const Candidate& candidate_;
     Effort effort_;
     uint32_t mip_;
@@ -148,8 +151,8 @@ private:
 
 } // namespace
 
-void matchCoverage(const PlainImage& image, const Candidate& candidate, Effort effort,
-                   std::vector<std::byte>& encoded)
+void matchCoverage(const PlainImage& image, std::span<const SmoothCells> smooth, const Candidate& candidate,
+                   Effort effort, std::vector<std::byte>& encoded)
 {
     if ((image.record.flags & kImageAlphaTested) == 0 || candidate.traits->family == TexelFamily::plain)
         return;
@@ -159,7 +162,7 @@ void matchCoverage(const PlainImage& image, const Candidate& candidate, Effort e
         const MipExtent extent = mipExtent(image.record, mip);
         const auto bytes =
             static_cast<size_t>(formats::mipBytes(*candidate.traits, extent.width, extent.height));
-        MipCoverage(image, candidate, effort, mip).match(std::span(encoded).subspan(at, bytes));
+        MipCoverage(image, smooth, candidate, effort, mip).match(std::span(encoded).subspan(at, bytes));
         at += bytes;
     }
 }

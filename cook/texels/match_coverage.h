@@ -21,7 +21,7 @@ inline constexpr double kMaxCoverageChange = 0.005;
 /// number of threads.
 ///
 /// encoded  of all mips, as encodeImage; changed
-void matchCoverage(const PlainImage& image, const Candidate& candidate, Effort effort,
-                   std::vector<std::byte>& encoded);
+void matchCoverage(const PlainImage& image, std::span<const SmoothCells> smooth, const Candidate& candidate,
+                   Effort effort, std::vector<std::byte>& encoded);
 
 } // namespace hearth::texels

@@ -126,11 +126,10 @@ size_t findCheapest(Estimates& estimates, std::span<const Candidate> candidates)
 
 /// Encode, measure what is lost, and compare it with the target. The area of a cut-out is kept as far as the
 /// target allows: scaled alphas are an error, too, and must not cost another format.
-Encoding encodeMeasured(const PlainImage& image, std::span<const SmoothCells> smooth, Candidate candidate,
-                        const Target& target, Effort effort)
+Encoding encodeMeasured(const PlainImage& image, std::span<const SmoothCells> smooth,
+                        const Candidate& candidate, const Target& target, Effort effort)
 {
-    candidate.has_smooth_areas = !smooth.empty();
-    Encoding encoding{.candidate = candidate, .texels = encodeImage(image, candidate, effort)};
+    Encoding encoding{.candidate = candidate, .texels = encodeImage(image, smooth, candidate, effort)};
     const auto measure = [&](Encoding& measured)
     {
         measured.error = measureError(image, smooth, candidate, measured.texels);
@@ -138,7 +137,7 @@ Encoding encodeMeasured(const PlainImage& image, std::span<const SmoothCells> sm
     };
     measure(encoding);
     Encoding matched = encoding;
-    matchCoverage(image, candidate, effort, matched.texels);
+    matchCoverage(image, smooth, candidate, effort, matched.texels);
     if (matched.texels == encoding.texels)
         return encoding;
     measure(matched);

@@ -84,6 +84,17 @@ SmoothCells::SmoothCells(const PlainImage& image, uint32_t mip)
         }
 }
 
+bool SmoothCells::touch(uint64_t x, uint64_t y, uint64_t width, uint64_t height) const
+{
+    const uint64_t right = std::min<uint64_t>(x + width, width_),
+                   bottom = std::min<uint64_t>(y + height, height_);
+    for (uint64_t row = y / kCellSide; row * kCellSide < bottom; ++row)
+        for (uint64_t column = x / kCellSide; column * kCellSide < right; ++column)
+            if (is_smooth_[row * columns_ + column] != 0)
+                return true;
+    return false;
+}
+
 uint64_t SmoothCells::countSmooth() const
 {
     return static_cast<uint64_t>(std::ranges::count(is_smooth_, uint8_t{1}));
@@ -113,6 +124,13 @@ std::vector<SmoothCells> findSmoothCells(const PlainImage& image)
         all += mip.count();
     }
     return smooth * kMinSmoothPart < all ? std::vector<SmoothCells>() : mips;
+}
+
+bool hasSmoothCells(std::span<const SmoothCells> smooth, uint32_t mip, uint64_t x, uint64_t y,
+                    const TexelFormatTraits& traits)
+{
+    return !smooth.empty() &&
+           (mip >= smooth.size() || smooth[mip].touch(x, y, traits.block_width, traits.block_height));
 }
 
 } // namespace hearth::texels

@@ -28,6 +28,9 @@ public:
         return is_smooth_[y / kCellSide * columns_ + x / kCellSide] != 0;
     }
 
+    /// True if any texel of a rectangle within the mip lies in a smooth cell.
+    bool touch(uint64_t x, uint64_t y, uint64_t width, uint64_t height) const;
+
     uint64_t countSmooth() const;
     uint64_t count() const { return is_smooth_.size(); }
     /// Return the number of texels in smooth cells.
@@ -42,5 +45,11 @@ private:
 /// Return the cells of the mips that errors are measured on; none unless the image is a colour and half of
 /// its cells are smooth: a sky, a glow, a panel. Elsewhere texture hides what smooth areas would show.
 std::vector<SmoothCells> findSmoothCells(const PlainImage& image);
+
+/// Return whether a block has smooth cells. In mips coarser than those of smooth, all have.
+/// smooth  as findSmoothCells
+/// x, y    the block's first texel
+bool hasSmoothCells(std::span<const SmoothCells> smooth, uint32_t mip, uint64_t x, uint64_t y,
+                    const formats::TexelFormatTraits& traits);
 
 } // namespace hearth::texels

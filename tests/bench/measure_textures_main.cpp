@@ -103,7 +103,7 @@ void addToCommon(const PlainImage& image, std::span<const Candidate> candidates,
                                                                c.traits->block_height == traits.block_height;
                                                     });
         const ImageError error =
-            measureError(image, smooth, *candidate, encodeImage(image, *candidate, quality));
+            measureError(image, smooth, *candidate, encodeImage(image, smooth, *candidate, quality));
         if (std::max(error.error / target.error, error.smooth / target.smooth) <= std::max(1.0, share))
             return;
     }
@@ -130,11 +130,12 @@ void measureImage(const PlainImage& image, const std::string& name, Effort quali
     const double start = processorSeconds();
     const Encoding found = encodeForTarget(image, candidates, target, quality, false);
     const double searched = processorSeconds() - start;
+    const std::vector<SmoothCells> smooth = findSmoothCells(image);
     const double again = processorSeconds();
-    (void)encodeImage(image, found.candidate, quality);
+    (void)encodeImage(image, smooth, found.candidate, quality);
     const double encoded = processorSeconds() - again;
     const Candidate& fixed = findFixed(candidates, image.role);
-    const std::vector<std::byte> fixed_texels = encodeImage(image, fixed, quality);
+    const std::vector<std::byte> fixed_texels = encodeImage(image, {}, fixed, quality);
     const ImageError fixed_error = measureError(image, {}, fixed, fixed_texels);
     if (image.role != ImageRole::normal)
         addToCommon(image, candidates, target, found.share, quality, result.common);

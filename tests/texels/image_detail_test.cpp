@@ -100,9 +100,9 @@ TEST(ImageDetail, estimatesSeeErrorsInFewBlocks)
     for (const Candidate& candidate : listCandidates(plain, {.astc = true}))
         if (candidate.traits->block_width == 8)
         {
-            const double whole =
-                measureError(plain, detail.smooth, candidate, encodeImage(plain, candidate, Effort::draft))
-                    .error;
+            const double whole = measureError(plain, detail.smooth, candidate,
+                                              encodeImage(plain, detail.smooth, candidate, Effort::draft))
+                                     .error;
             const double estimate =
                 estimateError(plain, detail, candidate, Effort::draft, SampleSize::large).error;
             EXPECT_NEAR(-20 * std::log10(estimate), -20 * std::log10(whole), 0.5) << candidate.traits->name;

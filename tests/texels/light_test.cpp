@@ -118,7 +118,7 @@ TEST(Light, isNeverNegativeAndHasNoAlpha)
     const PlainImage plain = image.plain(ImageRole::light, kRgb);
     for (const Candidate& candidate : listCandidates(plain, {.astc_hdr = true, .bc = true}))
         for (const DecodedTexel& texel :
-             decodeMip(*candidate.traits, kSide, kSide, encodeImage(plain, candidate, Effort::draft)))
+             decodeMip(*candidate.traits, kSide, kSide, encodeImage(plain, {}, candidate, Effort::draft)))
             ASSERT_EQ(readStored(candidate, texel), (DecodedTexel{0, 0, 0, kHalfOne}))
                 << candidate.traits->name;
 }

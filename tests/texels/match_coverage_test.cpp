@@ -81,11 +81,11 @@ TEST(MatchCoverage, decodedTexelsOfLeavesCoverWhatPlainOnesDid)
              {astcFormat(TexelFormat::astc_srgb, 7), astcFormat(TexelFormat::astc_srgb, 11)})
         {
             const Candidate& candidate = *findCandidate(candidates, format);
-            std::vector<std::byte> encoded = encodeImage(plain, candidate, Effort::draft);
+            std::vector<std::byte> encoded = encodeImage(plain, {}, candidate, Effort::draft);
             std::array<double, 2> before{};
             for (uint32_t mip = 0; mip < 2; ++mip)
                 before[mip] = recountChange(plain, candidate, encoded, mip);
-            matchCoverage(plain, candidate, Effort::draft, encoded);
+            matchCoverage(plain, {}, candidate, Effort::draft, encoded);
             for (uint32_t mip = 0; mip < 2; ++mip)
             {
                 const double after = recountChange(plain, candidate, encoded, mip);
@@ -104,16 +104,16 @@ TEST(MatchCoverage, mipsThatCoverEnoughStayAsTheyAre)
     PlainImage plain = leaves.plain(ImageRole::cutout, kRgb | kAlpha);
     const std::vector<Candidate> candidates = listCandidates(plain, {.astc = true});
     const Candidate& fine = *findCandidate(candidates, TexelFormat::astc_srgb);
-    const std::vector<std::byte> encoded = encodeImage(plain, fine, Effort::draft);
+    const std::vector<std::byte> encoded = encodeImage(plain, {}, fine, Effort::draft);
     std::vector<std::byte> matched = encoded;
-    matchCoverage(plain, fine, Effort::draft, matched);
+    matchCoverage(plain, {}, fine, Effort::draft, matched);
     EXPECT_EQ(matched, encoded);
 
     const Candidate& coarse = *findCandidate(candidates, astcFormat(TexelFormat::astc_srgb, 13));
-    const std::vector<std::byte> blended = encodeImage(plain, coarse, Effort::draft);
+    const std::vector<std::byte> blended = encodeImage(plain, {}, coarse, Effort::draft);
     plain.record.flags = 0;
     matched = blended;
-    matchCoverage(plain, coarse, Effort::draft, matched);
+    matchCoverage(plain, {}, coarse, Effort::draft, matched);
     EXPECT_EQ(matched, blended) << "there is no alpha test";
 }
 
@@ -130,7 +130,7 @@ TEST(MatchCoverage, theSearchMatchesForAnyNumberOfThreads)
     };
     const Encoding one = encode(1), several = encode(7);
     EXPECT_EQ(one.texels, several.texels);
-    const std::vector<std::byte> unmatched = encodeImage(plain, one.candidate, Effort::draft);
+    const std::vector<std::byte> unmatched = encodeImage(plain, {}, one.candidate, Effort::draft);
     EXPECT_LT(one.error.coverage, measureError(plain, {}, one.candidate, unmatched).coverage / 2);
 }
 
@@ -140,9 +140,9 @@ TEST(MatchCoverage, costsNoOtherFormat)
     const PlainImage plain = leaves.plain(ImageRole::cutout, kRgb | kAlpha);
     const std::vector<Candidate> all = listCandidates(plain, {.astc = true});
     const Candidate& coarse = *findCandidate(all, astcFormat(TexelFormat::astc_srgb, 11));
-    std::vector<std::byte> encoded = encodeImage(plain, coarse, Effort::draft);
+    std::vector<std::byte> encoded = encodeImage(plain, {}, coarse, Effort::draft);
     const double unmatched = measureError(plain, {}, coarse, encoded).error;
-    matchCoverage(plain, coarse, Effort::draft, encoded);
+    matchCoverage(plain, {}, coarse, Effort::draft, encoded);
     const double matched = measureError(plain, {}, coarse, encoded).error;
     ASSERT_GT(matched, 1.5 * unmatched) << "scaled alphas are an error";
     const std::array candidates{coarse, *findCandidate(all, TexelFormat::astc_srgb), all.back()};

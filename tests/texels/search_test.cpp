@@ -168,7 +168,8 @@ TEST(TexelSearch, smoothAreasAreEncodedFinerThanLibastcencAloneWould)
         std::ranges::find(candidates, "astc-8x8-srgb", [](const Candidate& one) { return one.traits->name; });
     ASSERT_NE(wide, candidates.end());
     const Target target = findTarget(plain.role, Effort::normal);
-    const ImageError alone = measureError(plain, smooth, *wide, encodeImage(plain, *wide, Effort::normal));
+    const ImageError alone =
+        measureError(plain, smooth, *wide, encodeImage(plain, {}, *wide, Effort::normal));
     const ImageError error = encodeCandidate(plain, *wide, target, Effort::normal).error;
     EXPECT_LT(error.smooth, alone.smooth * 0.9);
     EXPECT_LE(error.error, alone.error);
@@ -185,7 +186,7 @@ TEST(TexelSearch, noCheaperFootprintHoldsTheTarget)
     {
         if (candidate.bitsPerTexel() >= found.candidate.bitsPerTexel())
             break;
-        const std::vector<std::byte> encoded = encodeImage(plain, candidate, Effort::draft);
+        const std::vector<std::byte> encoded = encodeImage(plain, {}, candidate, Effort::draft);
         // one that holds it by less than the margin of estimates may be passed over
         EXPECT_GT(measureError(plain, {}, candidate, encoded).error, target.error * 0.94)
             << candidate.traits->name;
@@ -201,7 +202,7 @@ TEST(TexelSearch, estimatesAreNearTheWhole)
             candidate.traits->block_width != 1)
         {
             const double whole =
-                measureError(plain, {}, candidate, encodeImage(plain, candidate, Effort::draft)).error;
+                measureError(plain, {}, candidate, encodeImage(plain, {}, candidate, Effort::draft)).error;
             EXPECT_NEAR(toDecibels(estimateError(plain, ImageDetail(plain), candidate, Effort::draft,
                                                  SampleSize::large)
                                        .error),
@@ -220,10 +221,10 @@ TEST(TexelSearch, whatMissesItsTargetGetsTheBestOrStaysPlain)
     EXPECT_GT(missed.share, 1);
     EXPECT_EQ(missed.candidate.traits->family, TexelFamily::astc);
     for (size_t i = candidates.size() - 4; i + 1 < candidates.size(); ++i)
-        EXPECT_LE(
-            missed.error.error,
-            measureError(plain, {}, candidates[i], encodeImage(plain, candidates[i], Effort::draft)).error *
-                1.05);
+        EXPECT_LE(missed.error.error,
+                  measureError(plain, {}, candidates[i], encodeImage(plain, {}, candidates[i], Effort::draft))
+                          .error *
+                      1.05);
     const Encoding kept = encodeForTarget(plain, candidates, target, Effort::draft, true);
     EXPECT_EQ(kept.candidate.traits->format, TexelFormat::rgba8_srgb);
     EXPECT_EQ(kept.error.error, 0);
@@ -258,7 +259,7 @@ TEST(TexelSearch, coverageIsCountedBeforeAndAfter)
     image.record.alpha_cutoff = 0.5f;
     const PlainImage plain = image.plain(ImageRole::cutout, kRgb | kAlpha);
     const Candidate same = listCandidates(plain, {}).back();
-    std::vector<std::byte> texels = encodeImage(plain, same, Effort::draft);
+    std::vector<std::byte> texels = encodeImage(plain, {}, same, Effort::draft);
     EXPECT_EQ(measureError(plain, {}, same, texels).coverage, 0);
     for (size_t i = 0; i < 41; ++i)
         texels[i * 64 * 4 + 63 * 4 + 3] = std::byte{0}; // 41 texels no longer pass
