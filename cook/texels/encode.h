@@ -4,6 +4,7 @@
 
 #include "cook/texels/blocks/block_texels.h"
 #include "cook/texels/candidate.h"
+#include "cook/texels/error_histogram.h"
 #include "cook/texels/smooth_cells.h"
 #include "cook/texels/texel_error.h"
 
@@ -31,8 +32,8 @@ struct StoredTexels
 StoredTexels arrangeChannels(const PlainImage& image, const Candidate& candidate, uint32_t width,
                              uint32_t height, std::span<const formats::DecodedTexel> texels);
 
-/// Return a decoded texel as shaders read it.
-formats::DecodedTexel readStored(const Candidate& candidate, const formats::DecodedTexel& stored);
+/// Make of decoded texels, in place, what shaders read.
+void readStored(const Candidate& candidate, std::span<formats::DecodedTexel> texels);
 
 /// Encode texels; on the caller's thread.
 /// returns  mipBytes(*candidate.traits, texels.width, texels.height)

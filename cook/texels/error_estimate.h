@@ -15,7 +15,8 @@ enum class SampleSize
     large, ///< 96 to 320, 32 to 80
 };
 
-/// Estimate the error of an image in the format of a candidate, and of its smooth texels.
+/// Estimate the error of an image in the format of a candidate, and of its smooth texels; on the caller's
+/// thread, but for the choice of blocks.
 ImageError estimateError(const PlainImage& image, const ImageDetail& detail, const Candidate& candidate,
                          Effort effort, SampleSize size);
 

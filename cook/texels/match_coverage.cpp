@@ -115,8 +115,7 @@ private:
     {
         std::vector<DecodedTexel> texels =
             decodeMip(*candidate_.traits, extent_.width, extent_.height, blocks);
-        for (DecodedTexel& texel : texels)
-            texel = readStored(candidate_, texel);
+        readStored(candidate_, texels);
         return texels;
     }
 

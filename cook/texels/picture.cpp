@@ -120,6 +120,7 @@ void drawErrorRow(const PlainImage& image, const Encoding& encoding, double brig
     std::vector<DecodedTexel> stored(size_t{width} * rows);
     decodeBlockRow(traits, width, rows, std::span(encoding.texels).subspan(block_row * row_bytes, row_bytes),
                    stored);
+    readStored(encoding.candidate, stored);
     const std::vector<DecodedTexel> plain = decodeRows(image, 0, first, rows);
     for (uint32_t x = 0; x < picture.width; ++x)
     {
@@ -130,8 +131,7 @@ void drawErrorRow(const PlainImage& image, const Encoding& encoding, double brig
             for (size_t column = begin; column < end; ++column)
             {
                 const size_t i = row * width + column;
-                const double error = texelError(image.role, image.channels, plain[i],
-                                                readStored(encoding.candidate, stored[i]));
+                const double error = texelError(image.role, image.channels, plain[i], stored[i]);
                 sum += error * error;
             }
         const double rms = std::sqrt(sum / (static_cast<double>(end - begin) * rows));

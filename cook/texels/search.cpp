@@ -21,12 +21,14 @@ namespace
 constexpr double kSureShare = 0.841;
 constexpr double kLargeSampleMargin = 0.983;
 
-// Power of the bits by which errors fall: the usual one, and the least that a guess believes. The share that
-// stands for an error of 0, which has no logarithm.
-constexpr double kUsualSlope = -1.2, kFlattestSlope = -0.3, kMinShare = 1e-3;
+// Power of the bits by which errors fall: the usual one below and above the target, and the least that a guess
+// believes. A share of 0 has no logarithm.
+constexpr double kUsualSlopeToFewer = -0.8, kUsualSlopeToMore = -1.1, kFlattestSlope = -0.3, kMinShare = 1e-3;
 
-// A candidate may hold the target although the next one, with more bits, does not: ETC2 is up to a third
-// worse than its neighbours.
+// Guesses alone may come near from one side, a candidate at a time. After so many the middle has its turn.
+constexpr uint32_t kGuesses = 3;
+
+// ETC2 is up to a third worse than its neighbours: one that misses by less says little of those below.
 constexpr double kNearShare = 1.35;
 
 // Candidates with the most bytes, one of which an image gets that misses its target in all.
@@ -89,17 +91,22 @@ private:
     std::vector<std::optional<ImageError>> errors_;
 };
 
-/// Guess which of candidates [low, high) is the cheapest that holds the target: where a line through the
-/// nearest estimates, of logarithms of shares over those of bits, meets it.
+/// Guess which of candidates [low, high) is the cheapest that holds the target: where a line through what is
+/// known beside them, logarithms of shares over those of bits, meets it.
 size_t guessCheapest(Estimates& estimates, std::span<const Candidate> candidates, size_t low, size_t high)
 {
     const auto bits = [&](size_t i) { return std::log2(candidates[i].bitsPerTexel()); };
     const auto share = [&](size_t i) { return std::log2(std::max(estimates.get(i), kMinShare)); };
-    double slope = kUsualSlope;
-    if (low > 0 && high < candidates.size() && bits(high) > bits(low - 1))
-        slope = (share(high) - share(low - 1)) / (bits(high) - bits(low - 1));
-    const size_t known = low > 0 ? low - 1 : high;
-    const double wanted = bits(known) - share(known) / std::min(slope, kFlattestSlope);
+    const bool knows_low = low > 0, knows_high = high < candidates.size();
+    double slope = knows_high ? kUsualSlopeToFewer : kUsualSlopeToMore;
+    size_t nearest = knows_high ? high : low - 1;
+    if (knows_low && knows_high)
+    {
+        if (bits(high) > bits(low - 1))
+            slope = (share(high) - share(low - 1)) / (bits(high) - bits(low - 1));
+        nearest = std::abs(share(low - 1)) < std::abs(share(high)) ? low - 1 : high;
+    }
+    const double wanted = bits(nearest) - share(nearest) / std::min(slope, kFlattestSlope);
     size_t guess = low;
     while (guess + 1 < high && bits(guess) < wanted)
         ++guess;
@@ -107,21 +114,22 @@ size_t guessCheapest(Estimates& estimates, std::span<const Candidate> candidates
 }
 
 /// Return the cheapest candidate whose estimate holds the target; their number if none does. Errors mostly
-/// fall with bytes, but not always: the next one below those that were tried is tried, too, if it may hold.
+/// fall with bytes, so what is cheaper than one that misses is not tried; but for what lies behind ETC2.
 size_t findCheapest(Estimates& estimates, std::span<const Candidate> candidates)
 {
     const auto holds = [&](size_t i) { return estimates.get(i) <= 1; };
     size_t low = 0, high = candidates.size();
-    for (bool guesses = false; low < high; guesses = !guesses)
+    for (uint32_t step = 0; low < high; ++step)
     {
-        // guesses alone may come near from one side, a candidate at a time
+        const bool guesses = step > 0 && (step <= kGuesses || step % 2 == 1);
         const size_t next = guesses ? guessCheapest(estimates, candidates, low, high) : (low + high) / 2;
         if (holds(next))
             high = next;
         else
             low = next + 1;
     }
-    return low > 1 && estimates.get(low - 1) < kNearShare && holds(low - 2) ? low - 2 : low;
+    const bool is_behind_etc2 = low > 1 && candidates[low - 1].traits->family == TexelFamily::etc2;
+    return is_behind_etc2 && estimates.get(low - 1) < kNearShare && holds(low - 2) ? low - 2 : low;
 }
 
 /// Encode, measure what is lost, and compare it with the target. The area of a cut-out is kept as far as the

@@ -29,17 +29,16 @@ double angleBetween(const DecodedTexel& plain, const DecodedTexel& stored)
 }
 
 /// Return the channels of a texel with colours times alpha.
-std::array<int64_t, 4> weightByAlpha(const DecodedTexel& texel)
+DecodedTexel weightByAlpha(const DecodedTexel& texel)
 {
     const auto weigh = [&](uint16_t channel)
-    { return static_cast<int64_t>((uint64_t{channel} * texel[3] + 32767) / 65535); };
+    { return static_cast<uint16_t>((uint32_t{channel} * texel[3] + 32767) / 65535); };
     return {weigh(texel[0]), weigh(texel[1]), weigh(texel[2]), texel[3]};
 }
 
-std::array<int64_t, 4> codes(ImageRole role, const DecodedTexel& texel)
+uint32_t difference(uint16_t a, uint16_t b)
 {
-    return role == ImageRole::cutout ? weightByAlpha(texel)
-                                     : std::array<int64_t, 4>{texel[0], texel[1], texel[2], texel[3]};
+    return a < b ? uint32_t{b} - a : uint32_t{a} - b;
 }
 
 double stops(uint16_t half)
@@ -86,11 +85,11 @@ void ErrorSum::addCodes(std::span<const DecodedTexel> plain, std::span<const Dec
     std::array<uint64_t, 4> sums{};
     for (size_t i = 0; i < plain.size(); ++i)
     {
-        const auto a = codes(plain[i]), b = codes(stored[i]);
+        const DecodedTexel a = codes(plain[i]), b = codes(stored[i]);
         for (uint32_t c = 0; c < 4; ++c)
         {
-            const auto difference = static_cast<uint32_t>(a[c] < b[c] ? b[c] - a[c] : a[c] - b[c]);
-            sums[c] += uint64_t{difference} * difference;
+            const uint32_t d = difference(a[c], b[c]);
+            sums[c] += d * d; // below 2^32
         }
     }
     for (uint32_t c = 0; c < 4; ++c)
@@ -143,18 +142,26 @@ double texelError(ImageRole role, Channels channels, const DecodedTexel& plain, 
 {
     if (role == ImageRole::normal)
         return angleBetween(plain, stored);
-    double error = 0;
     if (role == ImageRole::light)
     {
+        double error = 0;
         for (uint32_t c = 0; c < 3; ++c)
             error = std::max(error, std::abs(stops(plain[c]) - stops(stored[c])));
         return error;
     }
-    const std::array<int64_t, 4> a = codes(role, plain), b = codes(role, stored);
+    return codeDifference(role, channels, plain, stored) / kRange;
+}
+
+uint32_t codeDifference(ImageRole role, Channels channels, const DecodedTexel& plain,
+                        const DecodedTexel& stored)
+{
+    const bool is_cutout = role == ImageRole::cutout;
+    const DecodedTexel a = is_cutout ? weightByAlpha(plain) : plain;
+    const DecodedTexel b = is_cutout ? weightByAlpha(stored) : stored;
+    uint32_t largest = 0;
     for (uint32_t c = 0; c < 4; ++c)
-        if (has(channels, c))
-            error = std::max(error, static_cast<double>(std::abs(a[c] - b[c])) / kRange);
-    return error;
+        largest = std::max(largest, has(channels, c) ? difference(a[c], b[c]) : 0);
+    return largest;
 }
 
 uint32_t countMeasuredMips(const ImageRecord& image)

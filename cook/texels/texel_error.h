@@ -61,6 +61,11 @@ double combineMips(formats::ImageRole role, Channels channels, std::span<const s
 double texelError(formats::ImageRole role, Channels channels, const formats::DecodedTexel& plain,
                   const formats::DecodedTexel& stored);
 
+/// Return the largest difference of a channel, in 16-bit codes; of cutouts after weighting by alpha.
+/// role  neither normal nor light
+uint32_t codeDifference(formats::ImageRole role, Channels channels, const formats::DecodedTexel& plain,
+                        const formats::DecodedTexel& stored);
+
 /// Return the number of mips that an error is measured on: the first four, of those with sides of 64 texels
 /// or more; at least one. Each of them is what some distance shows at a texel a pixel.
 uint32_t countMeasuredMips(const formats::ImageRecord& image);

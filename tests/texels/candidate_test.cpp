@@ -21,8 +21,9 @@ constexpr Families kAll{.astc = true, .etc2 = true, .bc = true};
 /// Return what a shader reads where the encoder changes nothing.
 DecodedTexel readBack(const PlainImage& image, const Candidate& candidate, const DecodedTexel& texel)
 {
-    const StoredTexels stored = arrangeChannels(image, candidate, 1, 1, std::span(&texel, 1));
-    return readStored(candidate, stored.texels[0]);
+    StoredTexels stored = arrangeChannels(image, candidate, 1, 1, std::span(&texel, 1));
+    readStored(candidate, stored.texels);
+    return stored.texels[0];
 }
 
 TEST(Candidates, everyLayoutGivesBackTheChannelsThatAreRead)
