@@ -51,9 +51,11 @@ EstimatedImage estimateImage(const LoadedImage& loaded, const Request& request)
             {.name = candidate.traits->name, .bytes = mipOffset(record, record.mip_count)});
         // a single one costs the same whatever the budget
         if (request.candidates.size() > 1)
-            estimated.formats.back().cost =
-                findCost(image, estimateError(image, detail, candidate, request.effort, SampleSize::large),
-                         request.target);
+        {
+            ErrorEstimate estimate(image, detail, candidate, request.effort);
+            estimate.refine();
+            estimated.formats.back().cost = findCost(image, estimate.error(), request.target);
+        }
     }
     return estimated;
 }

@@ -24,7 +24,7 @@ std::vector<uint64_t> sortBlocks(std::span<const float> expected)
 
 } // namespace
 
-std::vector<SampledBlock> sampleBlocks(std::span<const float> expected, size_t wanted)
+std::vector<SampledBlock> sampleBlocks(std::span<const float> expected, size_t wanted, size_t before)
 {
     const std::vector<uint64_t> order = sortBlocks(expected);
     double rest = 0;
@@ -50,7 +50,7 @@ std::vector<SampledBlock> sampleBlocks(std::span<const float> expected, size_t w
     double end = 0;
     for (size_t i = 0; i < steps; ++i)
     {
-        const double n = static_cast<double>(i + 1) * kGolden;
+        const double n = static_cast<double>(before + i + 1) * kGolden;
         const double place = (static_cast<double>(i) + n - std::floor(n)) * step;
         while (next + 1 < order.size() && end + double{expected[order[next]]} <= place)
             end += double{expected[order[next++]]};

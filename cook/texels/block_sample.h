@@ -27,7 +27,8 @@ struct SampledBlock
 /// place in each step.
 /// expected  [block]: positive where the quantity may be
 /// wanted    number of blocks; those that are chosen twice make it less
+/// before    blocks that other samples have: the choice differs from theirs
 /// returns   ascending by block; the same for the same input
-std::vector<SampledBlock> sampleBlocks(std::span<const float> expected, size_t wanted);
+std::vector<SampledBlock> sampleBlocks(std::span<const float> expected, size_t wanted, size_t before = 0);
 
 } // namespace hearth::texels

@@ -32,7 +32,7 @@ struct MipBounds
     SampleBounds finest;
     SampleBounds coarser;
 };
-constexpr MipBounds kUsualBounds{{64, 128}, {24, 32}}, kLargeBounds{{96, 320}, {32, 80}};
+constexpr MipBounds kFirstBounds{{64, 128}, {24, 32}}, kRefinedBounds{{32, 192}, {8, 48}};
 
 // Blocks in a row of the image that sampled blocks are put into.
 constexpr size_t kMosaicColumns = 32;
@@ -99,13 +99,6 @@ std::vector<uint8_t> findSmoothBlocks(std::span<const SmoothCells> smooth, const
     return is_smooth;
 }
 
-/// Sums of squares of each channel, of all blocks of a mip that the sampled ones stand for.
-struct SquareSums
-{
-    std::array<double, 4> all{};
-    std::array<double, 4> smooth{};
-};
-
 void addWeighted(const ErrorSum& block, double weight, std::array<double, 4>& sums)
 {
     if (block.count() == 0)
@@ -148,60 +141,90 @@ void measureBlocks(const PlainImage& image, std::span<const SmoothCells> smooth,
     }
 }
 
-/// Return the number of blocks of a mip that are to be encoded.
-size_t countWanted(size_t blocks, uint32_t mip, SampleSize size)
+/// Return, for each mip, the number of blocks that a sample within bounds has.
+std::vector<size_t> countWanted(const PlainImage& image, const ImageDetail& detail,
+                                const TexelFormatTraits& traits, const MipBounds& mips)
 {
-    const MipBounds& mips = size == SampleSize::usual ? kUsualBounds : kLargeBounds;
-    const SampleBounds& bounds = mip == 0 ? mips.finest : mips.coarser;
-    return std::clamp(blocks / kSampledPart, bounds.low, bounds.high);
-}
-
-/// Choose blocks of all mips that are measured.
-std::vector<MipBlock> chooseBlocks(const PlainImage& image, const ImageDetail& detail,
-                                   const TexelFormatTraits& traits, SampleSize size)
-{
-    std::vector<MipBlock> chosen;
+    std::vector<size_t> wanted;
     for (uint32_t mip = 0; mip < detail.mips.size(); ++mip)
     {
-        const std::vector<float> expected = detail.mips[mip].expectErrors(
-            traits.block_width, traits.block_height, detail.smooth.empty() ? nullptr : &detail.smooth[mip]);
-        const uint64_t columns =
-            (mipExtent(image.record, mip).width + traits.block_width - 1u) / traits.block_width;
-        for (const SampledBlock& block : sampleBlocks(expected, countWanted(expected.size(), mip, size)))
-            chosen.push_back({mip, block.block % columns * traits.block_width,
-                              block.block / columns * traits.block_height, block.weight});
+        const MipExtent extent = mipExtent(image.record, mip);
+        const SampleBounds& bounds = mip == 0 ? mips.finest : mips.coarser;
+        const auto blocks =
+            static_cast<size_t>(formats::mipBytes(traits, extent.width, extent.height) / traits.block_bytes);
+        wanted.push_back(std::clamp(blocks / kSampledPart, bounds.low, bounds.high));
     }
-    return chosen;
+    return wanted;
 }
 
 } // namespace
 
-ImageError estimateError(const PlainImage& image, const ImageDetail& detail, const Candidate& candidate,
-                         Effort effort, SampleSize size)
+ErrorEstimate::ErrorEstimate(const PlainImage& image, const ImageDetail& detail, const Candidate& candidate,
+                             Effort effort)
+    : image_(&image),
+      detail_(&detail),
+      candidate_(candidate),
+      effort_(effort),
+      sampled_(detail.mips.size()),
+      sums_(detail.mips.size())
 {
-    std::vector<SquareSums> sums(detail.mips.size());
-    measureBlocks(image, detail.smooth, candidate, chooseBlocks(image, detail, *candidate.traits, size),
-                  effort, sums);
+    addSample(countWanted(image, detail, *candidate.traits, kFirstBounds));
+}
 
-    std::vector<std::array<double, 4>> all, smooth;
-    for (uint32_t mip = 0; mip < detail.mips.size(); ++mip)
+void ErrorEstimate::refine()
+{
+    addSample(countWanted(*image_, *detail_, *candidate_.traits, kRefinedBounds));
+}
+
+/// Encode more blocks. The new estimate is the mean of the two, each as often as it has blocks.
+/// wanted  [mip]
+void ErrorEstimate::addSample(std::span<const size_t> wanted)
+{
+    const TexelFormatTraits& traits = *candidate_.traits;
+    std::vector<MipBlock> chosen;
+    for (uint32_t mip = 0; mip < wanted.size(); ++mip)
     {
-        const MipExtent extent = mipExtent(image.record, mip);
+        const size_t all = sampled_[mip] + wanted[mip];
+        const double old_share = static_cast<double>(sampled_[mip]) / static_cast<double>(all);
+        for (uint32_t c = 0; c < 4; ++c)
+        {
+            sums_[mip].all[c] *= old_share;
+            sums_[mip].smooth[c] *= old_share;
+        }
+        const std::vector<float> expected =
+            detail_->mips[mip].expectErrors(traits.block_width, traits.block_height,
+                                            detail_->smooth.empty() ? nullptr : &detail_->smooth[mip]);
+        const uint64_t columns =
+            (mipExtent(image_->record, mip).width + traits.block_width - 1u) / traits.block_width;
+        for (const SampledBlock& block : sampleBlocks(expected, wanted[mip], sampled_[mip]))
+            chosen.push_back({mip, block.block % columns * traits.block_width,
+                              block.block / columns * traits.block_height, block.weight * (1 - old_share)});
+        sampled_[mip] = all;
+    }
+    measureBlocks(*image_, detail_->smooth, candidate_, chosen, effort_, sums_);
+}
+
+ImageError ErrorEstimate::error() const
+{
+    std::vector<std::array<double, 4>> all, smooth;
+    for (uint32_t mip = 0; mip < sums_.size(); ++mip)
+    {
+        const MipExtent extent = mipExtent(image_->record, mip);
         const double texels = static_cast<double>(uint64_t{extent.width} * extent.height);
         const auto smooth_texels =
-            detail.smooth.empty() ? 0.0 : static_cast<double>(detail.smooth[mip].countSmoothTexels());
+            detail_->smooth.empty() ? 0.0 : static_cast<double>(detail_->smooth[mip].countSmoothTexels());
         std::array<double, 4> all_mean{}, smooth_mean{};
         for (uint32_t c = 0; c < 4; ++c)
         {
-            all_mean[c] = sums[mip].all[c] / texels;
-            smooth_mean[c] = sums[mip].smooth[c] / std::max(smooth_texels, 1.0);
+            all_mean[c] = sums_[mip].all[c] / texels;
+            smooth_mean[c] = sums_[mip].smooth[c] / std::max(smooth_texels, 1.0);
         }
         all.push_back(all_mean);
         if (smooth_texels > 0)
             smooth.push_back(smooth_mean);
     }
-    return {.error = combineMips(image.role, image.channels, all),
-            .smooth = combineMips(image.role, image.channels, smooth)};
+    return {.error = combineMips(image_->role, image_->channels, all),
+            .smooth = combineMips(image_->role, image_->channels, smooth)};
 }
 
 } // namespace hearth::texels

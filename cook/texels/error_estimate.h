@@ -8,16 +8,38 @@
 namespace hearth::texels
 {
 
-/// Number of blocks that an estimate encodes, of each mip that counts a 32nd within bounds.
-enum class SampleSize
+/// Sums of squares of each channel, of all blocks of a mip that sampled ones stand for.
+struct SquareSums
 {
-    usual, ///< 64 to 128 of mip 0, 24 to 32 of each other
-    large, ///< 96 to 320, 32 to 80
+    std::array<double, 4> all{};
+    std::array<double, 4> smooth{};
 };
 
-/// Estimate the error of an image in the format of a candidate, and of its smooth texels; on the caller's
-/// thread, but for the choice of blocks.
-ImageError estimateError(const PlainImage& image, const ImageDetail& detail, const Candidate& candidate,
-                         Effort effort, SampleSize size);
+/// Estimate of the error of an image in the format of a candidate, and of its smooth texels: from a 32nd of the
+/// blocks of each mip, of the finest at least 64 and at most 128, of each other 24 and 32. It encodes on the
+/// caller's thread.
+class ErrorEstimate
+{
+public:
+    /// image, detail  outlive the estimate
+    ErrorEstimate(const PlainImage& image, const ImageDetail& detail, const Candidate& candidate,
+                  Effort effort);
+
+    /// Encode more blocks: of the finest mip at least 32 and at most 192, of each other 8 and 48.
+    void refine();
+
+    /// Return what is estimated of all texels and of the smooth ones, and 0 of the rest.
+    ImageError error() const;
+
+private:
+    void addSample(std::span<const size_t> wanted);
+
+    const PlainImage* image_;
+    const ImageDetail* detail_;
+    Candidate candidate_;
+    Effort effort_;
+    std::vector<size_t> sampled_;  ///< [mip]: blocks so far
+    std::vector<SquareSums> sums_; ///< [mip]
+};
 
 } // namespace hearth::texels

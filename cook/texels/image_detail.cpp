@@ -76,10 +76,14 @@ MipDetail::MipDetail(const PlainImage& image, uint32_t mip)
                           const uint32_t height = std::min(kCellSide, height_ - row * kCellSide);
                           const std::vector<DecodedTexel> texels =
                               decodeRows(image, mip, row * kCellSide, height);
-                          Cell* const cells = cells_.data() + row * columns_;
-                          for (uint32_t y = 0; y < height; ++y)
-                              for (uint32_t x = 0; x < width_; ++x)
-                                  cells[x / kCellSide].add(weigh(texels[size_t{y} * width_ + x]));
+                          for (uint32_t left = 0; left < width_; left += kCellSide)
+                          {
+                              Cell cell;
+                              for (uint32_t y = 0; y < height; ++y)
+                                  for (uint32_t x = left; x < std::min(left + kCellSide, width_); ++x)
+                                      cell.add(weigh(texels[size_t{y} * width_ + x]));
+                              cells_[row * columns_ + left / kCellSide] = cell;
+                          }
                       });
 }
 

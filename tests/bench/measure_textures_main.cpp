@@ -130,8 +130,8 @@ void measureImage(const PlainImage& image, const std::string& name, Effort quali
     const double start = processorSeconds();
     const Encoding found = encodeForTarget(image, candidates, target, quality, false);
     const double searched = processorSeconds() - start;
-    const std::vector<SmoothCells> smooth = findSmoothCells(image);
     const double again = processorSeconds();
+    const std::vector<SmoothCells> smooth = findSmoothCells(image); // the encoder searches longer there
     (void)encodeImage(image, smooth, found.candidate, quality);
     const double encoded = processorSeconds() - again;
     const Candidate& fixed = findFixed(candidates, image.role);

@@ -103,9 +103,10 @@ TEST(ImageDetail, estimatesSeeErrorsInFewBlocks)
             const double whole = measureError(plain, detail.smooth, candidate,
                                               encodeImage(plain, detail.smooth, candidate, Effort::draft))
                                      .error;
-            const double estimate =
-                estimateError(plain, detail, candidate, Effort::draft, SampleSize::large).error;
-            EXPECT_NEAR(-20 * std::log10(estimate), -20 * std::log10(whole), 0.5) << candidate.traits->name;
+            ErrorEstimate estimate(plain, detail, candidate, Effort::draft);
+            estimate.refine();
+            EXPECT_NEAR(-20 * std::log10(estimate.error().error), -20 * std::log10(whole), 0.5)
+                << candidate.traits->name;
         }
 }
 
