@@ -5,8 +5,10 @@
 #include "formats/container/container_reader.h"
 #include "formats/container/container_writer.h"
 #include "formats/pack/image_data.h"
+#include "formats/pack/image_error.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <numeric>
 
@@ -18,8 +20,18 @@ using namespace formats;
 namespace
 {
 
+/// Store the target that chose the format. A rule or a budget that names one asks for no error.
+void describeTarget(const Request& request, ImageRecord& record)
+{
+    if (request.reason != FormatReason::target)
+        return;
+    record.target = static_cast<float>(request.target.error);
+    if (std::isfinite(request.target.smooth))
+        record.target_smooth = static_cast<float>(request.target.smooth);
+}
+
 /// Return the record of an encoded image.
-ImageRecord describe(const PlainImage& image, const Encoding& encoding)
+ImageRecord describe(const PlainImage& image, const Request& request, const Encoding& encoding)
 {
     ImageRecord record = image.record;
     record.format = static_cast<uint32_t>(encoding.candidate.traits->format);
@@ -30,6 +42,7 @@ ImageRecord describe(const PlainImage& image, const Encoding& encoding)
     record.error_p999 = static_cast<float>(encoding.error.error_p999);
     record.error_smooth = static_cast<float>(encoding.error.smooth);
     record.coverage_error = static_cast<float>(encoding.error.coverage);
+    describeTarget(request, record);
     return record;
 }
 
@@ -81,12 +94,12 @@ Status cookTexels(const std::string& import_path, const std::string& textures_pa
         HEARTH_ASSIGN_OR_RETURN(const Request request,
                                 makeRequest(image, options, i, loaded.name, loaded.place));
         const Encoding encoding = encodeRequest(image, request, options.strict);
-        records.push_back(describe(image, encoding));
+        records.push_back(describe(image, request, encoding));
         HEARTH_TRY(addImageData(writer, i, records.back(), encoding.texels));
         results.images.push_back({.name = loaded.name,
                                   .record = records.back(),
                                   .target = request.target,
-                                  .holds_target = encoding.share <= 1,
+                                  .holds_target = holdsTargets(records.back()),
                                   .reason = request.reason,
                                   .estimates = encoding.estimates,
                                   .bytes = encoding.texels.size()});

@@ -20,8 +20,8 @@ struct ImageResult
 {
     std::string name;
     formats::ImageRecord record{};
-    Target target{};
-    bool holds_target = true;
+    Target target{};          ///< as Request::target
+    bool holds_target = true; ///< as holdsTargets: a rule or a budget that names a format misses none
     FormatReason reason = FormatReason::target;
     std::vector<CandidateError> estimates{}; ///< as Encoding::estimates
     std::optional<size_t> picture{};         ///< its number among the pictures

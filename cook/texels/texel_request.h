@@ -36,7 +36,7 @@ enum class FormatReason : uint8_t
 struct Request
 {
     std::vector<Candidate> candidates{}; ///< as listCandidates; one if a rule or a budget names a format
-    Target target{};
+    Target target{};                     ///< bound of error; only a measure beside a named format
     Effort effort = Effort::normal;
     FormatReason reason = FormatReason::target;
 };

@@ -52,19 +52,27 @@ Result<texels::TexelOptions> parseOptions(const Arguments& arguments)
     return options;
 }
 
+/// Say by how much an image misses its target: of all texels, or else of the smooth ones.
+std::string missText(const formats::ImageRecord& image)
+{
+    const auto role = static_cast<formats::ImageRole>(image.role);
+    const bool is_smooth = image.error <= image.target;
+    const double error = double{is_smooth ? image.error_smooth : image.error};
+    const double target = double{is_smooth ? image.target_smooth : image.target};
+    return formats::imageErrorText(role, error) + (is_smooth ? " in smooth areas as " : " as ") +
+           std::string(formats::texelFormatName(image.format)) + ", the target is " +
+           formats::imageErrorText(role, target);
+}
+
 void warnOfMisses(const Arguments& arguments, std::span<const texels::ImageResult> results)
 {
     for (size_t i = 0; i < results.size(); ++i)
     {
         const texels::ImageResult& image = results[i];
-        const auto role = static_cast<formats::ImageRole>(image.record.role);
-        if (image.holds_target || image.reason != texels::FormatReason::target)
+        if (image.holds_target)
             continue;
-        const std::string detail = formats::imageErrorText(role, double{image.record.error}) + " as " +
-                                   std::string(formats::texelFormatName(image.record.format)) +
-                                   ", the target is " + formats::imageErrorText(role, image.target.error);
         const Error warning{Issue::texture_target, arguments.texels.import_part,
-                            "image " + std::to_string(i) + " \"" + image.name + "\"", detail};
+                            "image " + std::to_string(i) + " \"" + image.name + "\"", missText(image.record)};
         std::fprintf(stderr, "%s\n", formatMessage(warning).c_str());
     }
 }

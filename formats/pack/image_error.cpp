@@ -8,6 +8,16 @@
 namespace hearth::formats
 {
 
+namespace
+{
+
+bool misses(double error, double target)
+{
+    return target != 0 && error > target;
+}
+
+} // namespace
+
 std::string_view imageRoleName(uint32_t role)
 {
     constexpr std::string_view kNames[] = {"none", "color", "cutout", "emissive", "data", "normal", "light"};
@@ -46,6 +56,23 @@ std::string imageErrorText(ImageRole role, double error)
     else
         std::snprintf(text, sizeof(text), "%.1f dB", converted);
     return text;
+}
+
+std::string imageErrorText(ImageRole role, double error, double target)
+{
+    const std::string text = imageErrorText(role, error);
+    if (target == 0)
+        return text;
+    std::string bound = imageErrorText(role, target);
+    if (error != 0) // which has the unit
+        bound.resize(bound.find(' '));
+    return text + " (target " + bound + (misses(error, target) ? ", missed)" : ")");
+}
+
+bool holdsTargets(const ImageRecord& image)
+{
+    return !misses(double{image.error}, double{image.target}) &&
+           !misses(double{image.error_smooth}, double{image.target_smooth});
 }
 
 } // namespace hearth::formats

@@ -25,4 +25,11 @@ double restoreImageError(ImageRole role, double converted);
 /// Return the text of an error: "40.2 dB", "2.10 degrees", "0.040 stops", or "exact".
 std::string imageErrorText(ImageRole role, double error);
 
+/// Return the text of an error beside its target: "39.4 dB (target 39.0)", "37.2 dB (target 39.0, missed)". A
+/// target of 0 is none.
+std::string imageErrorText(ImageRole role, double error, double target);
+
+/// Return true if no error of an image exceeds its target.
+bool holdsTargets(const ImageRecord& image);
+
 } // namespace hearth::formats

@@ -87,6 +87,8 @@ Status checkEncoding(const PackView& view, uint32_t i)
     if (!isNonNegative(image.error) || !isNonNegative(image.error_p999) ||
         !isNonNegative(image.error_smooth) || !inside(image.coverage_error, 0, 1))
         return makeError(view, Issue::meaning_value, "image", i, "an error is negative or not finite");
+    if (!isNonNegative(image.target) || !isNonNegative(image.target_smooth))
+        return makeError(view, Issue::meaning_value, "image", i, "a target is negative or not finite");
     if (!reservedZero(image.reserved_bytes))
         return makeError(view, Issue::meaning_padding, "image", i, "a reserved field is not 0");
     return success();

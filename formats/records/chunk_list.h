@@ -63,7 +63,7 @@ inline constexpr std::array kChunkList{
     makeTableInfo<MaterialRecord>(kChunkMaterials, 1, ChunkPurpose::scene, "metallic-roughness materials"),
     makeTableInfo<MaterialLayersRecord>(kChunkMaterialLayers, 1, ChunkPurpose::scene,
                                         "reflectance, clear coat and sheen of materials that have them"),
-    makeTableInfo<ImageRecord>(kChunkImages, 3, ChunkPurpose::textures, "images"),
+    makeTableInfo<ImageRecord>(kChunkImages, 4, ChunkPurpose::textures, "images"),
     makeTableInfo<TexturePieceRecord>(kChunkTexturePieces, 1, ChunkPurpose::textures,
                                       "pieces of the texels of all images"),
     ChunkInfo{kChunkImageData, 1, ChunkPurpose::textures, "texels", true,

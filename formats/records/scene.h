@@ -227,6 +227,8 @@ struct ImageRecord
     float error_p999;
     float error_smooth;
     float coverage_error;
+    float target;
+    float target_smooth;
     Range pieces; ///< none: the texels are read as a whole
 };
 
@@ -390,7 +392,7 @@ HEARTH_RECORD(
     HEARTH_FIELD(hearth::formats::MaterialRecord, occlusion_texture, "R"),
     HEARTH_FIELD(hearth::formats::MaterialRecord, emissive_texture, ""));
 HEARTH_RECORD(
-    hearth::formats::ImageRecord, 64,
+    hearth::formats::ImageRecord, 72,
     HEARTH_FIELD(hearth::formats::ImageRecord, name, "file name or name in the source"),
     HEARTH_FIELD(hearth::formats::ImageRecord, width, "texels"),
     HEARTH_FIELD(hearth::formats::ImageRecord, height, "texels"),
@@ -411,6 +413,9 @@ HEARTH_RECORD(
                  "as error, of texels in cells of 4 x 4 that span 4 of 255 codes at most; 0: there are few"),
     HEARTH_FIELD(hearth::formats::ImageRecord, coverage_error,
                  "largest change of the share of texels that pass the alpha test, of a mip of 0 to 3"),
+    HEARTH_FIELD(hearth::formats::ImageRecord, target,
+                 "bound that the format was chosen by: error should not exceed it; 0: none was set"),
+    HEARTH_FIELD(hearth::formats::ImageRecord, target_smooth, "the same of error_smooth"),
     HEARTH_FIELD(hearth::formats::ImageRecord, pieces, "records of chunk TXPG, or none"));
 HEARTH_RECORD(hearth::formats::TexturePieceRecord, 24,
               HEARTH_FIELD(hearth::formats::TexturePieceRecord, offset, "in the image's chunk IMGD"),

@@ -15,14 +15,16 @@ namespace hearth::link
 struct ImagePlace
 {
     uint32_t source;
-    uint32_t image; ///< in the part
+    uint32_t image;      ///< in the part
+    float target;        ///< of its record, or a stricter one of an equal image
+    float target_smooth; ///< the same
 };
 
 /// Images of a pack.
 class ImageTable
 {
 public:
-    /// Compare images by their records, without names, and by their bytes as they are stored.
+    /// Compare images by their records, without names and targets, and by their bytes as they are stored.
     /// parts  the textures or texels part of each source
     explicit ImageTable(std::span<const formats::PackView* const> parts);
 

@@ -305,6 +305,8 @@ Status writeImages(ContainerWriter& writer, std::span<const Source> sources, con
     {
         ImageRecord record = sources[place.source].textures_part.images()[place.image];
         rebase(record, sources[place.source].offsets);
+        record.target = place.target;
+        record.target_smooth = place.target_smooth;
         HEARTH_ASSIGN_OR_RETURN(const std::vector<TexturePieceRecord> own,
                                 readPieces(sources[place.source].textures_part, place.image));
         record.pieces = {static_cast<uint32_t>(pieces.size()), static_cast<uint32_t>(own.size())};

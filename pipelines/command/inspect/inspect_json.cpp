@@ -61,6 +61,11 @@ Json meshJson(const MeshSummary& mesh, uint32_t index)
     return json;
 }
 
+Json targetJson(float target)
+{
+    return target == 0 ? Json() : Json(target);
+}
+
 Json imageJson(const PackView& pack, uint32_t index)
 {
     const ImageRecord& image = pack.images()[index];
@@ -76,6 +81,9 @@ Json imageJson(const PackView& pack, uint32_t index)
             {"error_p999", image.error_p999},
             {"error_smooth", image.error_smooth},
             {"coverage_error", image.coverage_error},
+            {"target", targetJson(image.target)},
+            {"target_smooth", targetJson(image.target_smooth)},
+            {"holds_target", holdsTargets(image)},
             {"placeholder", (image.flags & kImagePlaceholder) != 0},
             {"bytes", data == nullptr ? 0 : data->size},
             {"bytes_stored", data == nullptr ? 0 : data->stored_size}};

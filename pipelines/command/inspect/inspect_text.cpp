@@ -209,13 +209,19 @@ std::string extrasText(const PackView& pack)
     return text.empty() ? text : "\n" + text;
 }
 
-/// Return the role of an encoded image, and its loss: ", color, 40.2 dB".
+/// Return the role of an encoded image, and its loss beside the target: ", color, 39.4 dB (target 39.0)". That
+/// of smooth areas is told only if it misses its target.
 std::string encodingText(const ImageRecord& image)
 {
     const auto role = static_cast<ImageRole>(image.role);
-    return role == ImageRole::none ? ""
-                                   : fmt::format(", {}, {}", imageRoleName(image.role),
-                                                 imageErrorText(role, double{image.error}));
+    if (role == ImageRole::none)
+        return "";
+    std::string text = fmt::format(", {}, {}", imageRoleName(image.role),
+                                   imageErrorText(role, double{image.error}, double{image.target}));
+    if (image.target_smooth != 0 && image.error_smooth > image.target_smooth)
+        text +=
+            ", smooth areas " + imageErrorText(role, double{image.error_smooth}, double{image.target_smooth});
+    return text;
 }
 
 std::string imagesText(const PackView& pack, const PackSummary& summary)

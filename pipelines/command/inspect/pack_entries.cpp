@@ -249,16 +249,21 @@ std::string usesText(const PackView& pack, const std::vector<ImageUse>& uses)
     return uses.size() <= kMaxUses ? text : text + fmt::format(" and {} more", uses.size() - kMaxUses);
 }
 
-/// Express the role of an image, its swizzle and its errors as people do: "normal", "rg11", "2.10 degrees".
+/// Express the role of an image, its swizzle and its errors as people do: "normal", "raba", "2.10 degrees
+/// (target 3.00)".
 void expressEncoding(const ImageRecord& image, std::vector<Property>& properties)
 {
     const auto role = static_cast<ImageRole>(image.role);
     const std::pair<std::string_view, std::string> texts[] = {
         {"role", std::string(imageRoleName(image.role))},
         {"swizzle", swizzleText(image)},
-        {"error", imageErrorText(role, double{image.error})},
+        {"error", imageErrorText(role, double{image.error}, double{image.target})},
         {"error_p999", imageErrorText(role, double{image.error_p999})},
-        {"error_smooth", imageErrorText(role, double{image.error_smooth})}};
+        {"error_smooth",
+         image.error_smooth == 0 // there may be no smooth areas
+             ? imageErrorText(role, 0)
+             : imageErrorText(role, double{image.error_smooth}, double{image.target_smooth})}};
+    std::erase_if(properties, [](const Property& property) { return property.name.starts_with("target"); });
     for (Property& property : properties)
         for (const auto& [name, text] : texts)
             if (property.name == name)

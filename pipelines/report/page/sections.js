@@ -183,7 +183,22 @@ function errorShare(role, value, target) {
   return role === 'normal' || role === 'light' ? value / target : 10 ** ((target - value) / 20);
 }
 
+/** Tells an error beside its target; a format that a rule or a budget names was asked for no error. */
+function boundText({role, reason}, value, target) {
+  const isAsked = reason === 'target', isMissed = isAsked && errorShare(role, value, target) > 1;
+  return `${errorText(role, value)} (${isAsked ? 'target' : 'usual target'} ${errorText(role, target)}${isMissed ? ', missed' : ''})`;
+}
+
+/** Tells how many textures miss their target; nothing if all hold it. */
+function missedLine(textures) {
+  const missed = textures.filter(texture => texture.encoding && !texture.encoding.holds).length;
+  return missed ? el('p.warn', {}, `${plural(missed, 'texture')} ${missed === 1 ? 'misses its' : 'miss their'} target in every compressed format: W1309`) : null;
+}
+
 const kReasons = {target: 'the fewest bytes that hold the target', rule: 'named by a rule', budget: 'its share of the budget of all textures'};
+
+/** Tells why a texture has its format. */
+const reasonText = ({holds, reason}) => holds ? kReasons[reason] : 'the nearest to its target, which no compressed format holds';
 
 /** Shows a thumbnail beside the picture of its error, both parts of the sheet of the asset. */
 function texturePictures(texture) {
@@ -209,6 +224,14 @@ function texturesSection(data) {
   const decibels = (value, known) => known === false ? '–' : value === null ? 'exact' : value.toFixed(1) + ' dB';
   const share = texture => texture.encoding ? Math.max(errorShare(texture.encoding.role, texture.encoding.error, texture.encoding.target),
     errorShare(texture.encoding.role, texture.encoding.smooth, texture.encoding.targetSmooth)) : -1;
+  const targetCell = ({encoding}) => {
+    if (!encoding) return '–';
+    const text = errorText(encoding.role, encoding.target);
+    if (encoding.reason !== 'target') return el('span.faint', {title: 'not asked for: the format is ' + kReasons[encoding.reason]}, text);
+    if (encoding.holds) return text;
+    const isSmooth = errorShare(encoding.role, encoding.error, encoding.target) <= 1;
+    return el('span.warn', {title: isSmooth ? 'smooth areas: ' + boundText(encoding, encoding.smooth, encoding.targetSmooth) : boundText(encoding, encoding.error, encoding.target)}, text + ' ✗');
+  };
   const about = el('div');
   const detail = el('div.detail', {'aria-live': 'polite'}, about);
   const table = makeTable('Textures', data.textures, [
@@ -218,15 +241,15 @@ function texturesSection(data) {
     {name: 'Asset', of: texture => texture.asset.source, show: texture => el('span', {title: texture.asset.source}, nameOf(texture.asset.source)), width: 'minmax(90px, 1fr)', drop: 2},
     {name: 'Size', number: true, of: texture => texture.width * texture.height, show: texture => `${texture.width} × ${texture.height}`, width: '102px', drop: 7},
     {name: 'Mips', number: true, of: texture => texture.mips, width: '50px', drop: 6},
-    {name: 'Format', of: texture => texture.format, show: texture => el('span', {title: texture.encoding ? kReasons[texture.encoding.reason] : ''}, texture.format), width: '124px'},
+    {name: 'Format', of: texture => texture.format, show: texture => el('span', {title: texture.encoding ? reasonText(texture.encoding) : ''}, texture.format), width: '124px'},
     {name: 'In the pack', number: true, of: texture => texture.bytes, show: texture => bytes(texture.bytes), width: '88px', drop: 4},
     {name: 'On the GPU', number: true, of: texture => texture.memory, show: texture => bytes(texture.memory), width: '98px'},
     {name: 'Error', number: true, width: '78px', of: share, show: texture => texture.encoding ? el('span' + (texture.encoding.holds ? '' : '.warn'), {}, errorText(texture.encoding.role, texture.encoding.error)) : '–',
      tip: 'of the compressed texture against the uncompressed one, mips 0 to 3: decibels, more is better, or degrees of normals; sorted by the part of its target'},
-    {name: 'Target', number: true, width: '78px', of: texture => texture.encoding ? texture.encoding.target : -1, show: texture => texture.encoding ? errorText(texture.encoding.role, texture.encoding.target) : '–', drop: 1},
+    {name: 'Target', number: true, width: '92px', of: texture => texture.encoding ? texture.encoding.target : -1, show: targetCell, drop: 1},
     {name: 'Half size', number: true, width: '78px', of: texture => texture.halfKnown ? texture.half ?? Infinity : -1, show: texture => decibels(texture.half, texture.halfKnown), drop: 5,
      tip: 'PSNR of half the size against the source: where it is 45 dB and more, half the size would hardly be seen'},
-  ], {select: show, sort: 8, text: texture => usesText(texture) + ' ' + texture.name + ' ' + texture.asset.source + ' ' + texture.format + ' ' + texture.content});
+  ], {select: show, sort: 8, text: texture => usesText(texture) + ' ' + texture.name + ' ' + texture.asset.source + ' ' + texture.format + ' ' + texture.content + (texture.encoding && !texture.encoding.holds ? ' missed' : '')});
   function show(texture) {
     const encoding = texture.encoding;
     if (!encoding) {
@@ -239,15 +262,15 @@ function texturesSection(data) {
     const row = (name, size, error, smooth, mark) => el('tr' + mark, {}, el('td', {}, name), el('td', {}, bytes(size)), value(error, encoding.target), hasSmooth ? value(smooth, encoding.targetSmooth) : null);
     const others = encoding.candidates.filter(candidate => candidate[0] !== texture.format);
     about.replaceChildren(...[el('h3', {}, texture.name || '(no name)'), texturePictures(texture),
-      el('dl', {}, ...[['format', `${texture.format}: ${kReasons[encoding.reason]}`], ['error', `${errorText(encoding.role, encoding.error)}, target ${errorText(encoding.role, encoding.target)}`],
-        ['99.9 % of texels', errorText(encoding.role, encoding.p999)], hasSmooth ? ['smooth areas', `${errorText(encoding.role, encoding.smooth)}, target ${errorText(encoding.role, encoding.targetSmooth)}`] : null]
+      el('dl', {}, ...[['format', `${texture.format}: ${reasonText(encoding)}`], ['error', boundText(encoding, encoding.error, encoding.target)],
+        ['99.9 % of texels', errorText(encoding.role, encoding.p999)], hasSmooth ? ['smooth areas', boundText(encoding, encoding.smooth, encoding.targetSmooth)] : null]
         .filter(Boolean).flatMap(([name, text]) => [el('dt', {}, name), el('dd', {}, text)])),
       el('h3', {}, 'Bytes over error'), makeRates(texture, 400, 210),
       el('table.plain', {}, el('thead', {}, el('tr', {}, ['format', 'on the GPU', 'error', hasSmooth ? 'smooth' : null].filter(Boolean).map(name => el('th', {}, name)))),
          el('tbody', {}, row(texture.format, texture.memory, encoding.error, encoding.smooth, '.chosen'), others.map(candidate => row(...candidate, '')))),
       el('p.faint', {}, others.length ? 'The search estimated the others from some of their blocks.' : 'The search looked at no other format.')].filter(Boolean));
   }
-  const part = section('textures', 'Textures', 'errors against the uncompressed texture; more decibels, or fewer degrees, are better', budgetLine(data.texture_budget), el('div.split', {}, table.table, detail));
+  const part = section('textures', 'Textures', 'errors against the uncompressed texture; more decibels, or fewer degrees, are better', budgetLine(data.texture_budget), missedLine(data.textures), el('div.split', {}, table.table, detail));
   return {part: table.filter ? withTools(part, table.filter) : part, choose: table.choose, first: table.first};
 }
 

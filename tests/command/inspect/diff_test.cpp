@@ -184,15 +184,19 @@ TEST_F(Diff, encodingsAreComparedInTheUnitsOfPeople)
     PackModel pack = smallPack();
     pack.images[0].role = static_cast<uint8_t>(ImageRole::normal);
     pack.images[0].error = 0.05F;
+    pack.images[0].target = 0.04F;
     PackModel changed = pack;
     changed.images[0].error = 0.035F;
+    changed.images[0].target_smooth = 0.01F; // which no error is beside
     changed.images[0].swizzle[1] = static_cast<uint8_t>(Swizzle::alpha);
     const PackDiff diff = diffed(pack, changed);
     ASSERT_EQ(diff.entries.size(), 1u) << command::diffText(diff);
     const std::string text = command::diffText(diff);
-    EXPECT_NE(text.find("    swizzle: rgba -> raba\n    error: 2.86 degrees -> 2.01 degrees\n"),
+    EXPECT_NE(text.find("    swizzle: rgba -> raba\n"
+                        "    error: 2.86 degrees (target 2.29, missed) -> 2.01 degrees (target 2.29)\n"),
               std::string::npos)
         << text;
+    EXPECT_EQ(text.find("target_smooth"), std::string::npos) << text;
 }
 
 TEST_F(Diff, textHasTotalsFirstAndHashesOnDemand)

@@ -96,6 +96,31 @@ TEST_F(Inspect, countsWhatEachMeshHas)
     EXPECT_EQ(json["totals"]["bytes"]["bounds"], 48 + 48 + 2 * 4);
 }
 
+TEST_F(Inspect, showsErrorsOfImagesBesideTheirTargets)
+{
+    PackModel model = smallPack();
+    ImageRecord& paint = model.images[0];
+    paint.role = static_cast<uint8_t>(ImageRole::color);
+    paint.error = 0.01F;
+    paint.target = 0.0112F;
+    paint.error_smooth = 0.002F;
+    paint.target_smooth = 0.0025F;
+    Json json = inspected(model)["scene"]["images"];
+    EXPECT_EQ(json[0]["target"], paint.target);
+    EXPECT_EQ(json[0]["target_smooth"], paint.target_smooth);
+    EXPECT_EQ(json[0]["holds_target"], true);
+    EXPECT_TRUE(json[1]["target"].is_null() && json[1]["target_smooth"].is_null()) << "plain texels";
+    EXPECT_EQ(json[1]["holds_target"], true);
+    EXPECT_NE(text.find(", color, 40.0 dB (target 39.0)\n"), std::string::npos) << text;
+
+    paint.error_smooth = 0.003F;
+    json = inspected(model)["scene"]["images"];
+    EXPECT_EQ(json[0]["holds_target"], false);
+    EXPECT_NE(text.find(", color, 40.0 dB (target 39.0), smooth areas 50.5 dB (target 52.0, missed)\n"),
+              std::string::npos)
+        << text;
+}
+
 TEST_F(Inspect, listsTheAssetsWithTheirSizes)
 {
     PackModel model = smallPack();

@@ -409,6 +409,24 @@ TEST_F(LinkPack, equalImagesAreStoredOnce)
     EXPECT_TRUE(sameBytes(pack.imageData(2).value().bytes(), second.image_data[1]));
 }
 
+TEST_F(LinkPack, equalImagesGetTheStrictestOfTheirTargets)
+{
+    const float targets[][2] = {{0.02F, 0}, {0.01F, 0.003F}, {0, 0}, {0.03F, 0.004F}};
+    const std::string names = "abcd";
+    for (size_t i = 0; i < names.size(); ++i)
+    {
+        PackModel part = named(names.substr(i, 1) + ".gltf");
+        part.images[0].target = targets[i][0];
+        part.images[0].target_smooth = targets[i][1];
+        addParts(part, names.substr(i, 1));
+    }
+    const PackView pack = linked();
+    ASSERT_EQ(pack.images().size(), 2u);
+    EXPECT_EQ(pack.images()[0].target, 0.01F);
+    EXPECT_EQ(pack.images()[0].target_smooth, 0.003F) << "0 is none";
+    EXPECT_EQ(pack.images()[1].target, 0);
+}
+
 TEST_F(LinkPack, imagesOfEqualBytesAndOtherFormatsStayTwo)
 {
     PackModel second = named("b.gltf");
