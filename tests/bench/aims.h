@@ -111,6 +111,7 @@ inline constexpr std::array kAims = {
     Aim{"texture-errors", "error_p999 below its recount, of the range", Bound::at_most, 1 / 65535.},
     Aim{"texture-errors", "error_p999 above its recount, of the range", Bound::at_most, 1e-3},
     Aim{"texture-errors", "stored coverage off its recount", Bound::at_most, 1e-6},
+    Aim{"texture-errors", "targets other than documented", Bound::at_most, 0},
     Aim{"texture-errors", "targets missed without a warning", Bound::at_most, 0},
     Aim{"texture-errors", "warnings of targets that are held", Bound::at_most, 0},
     Aim{"texture-streaming", "GiB of texels", Bound::at_least, 2},

@@ -209,8 +209,8 @@ std::string extrasText(const PackView& pack)
     return text.empty() ? text : "\n" + text;
 }
 
-/// Return the role of an encoded image, and its loss beside the target: ", color, 39.4 dB (target 39.0)". That
-/// of smooth areas is told only if it misses its target.
+/// Return the role of an encoded image, and its loss beside the target: ", color, 39.4 dB (target 39.0)".
+/// The loss of smooth areas is told only if it misses its target.
 std::string encodingText(const ImageRecord& image)
 {
     const auto role = static_cast<ImageRole>(image.role);

@@ -1,5 +1,5 @@
 // hearth_measure_texture_errors: compares the errors that encoded textures store with a plain recount, and
-// with the targets: a texture may miss its target only with a warning.
+// the targets that they store with the documented ones. A texture may miss its target only with a warning.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
 #include "cook/texels/texel_source.h"
@@ -33,6 +33,7 @@ struct Figures
     double percentile_above = 0;
     double coverage_difference = 0;
     uint32_t silent_misses = 0, wrong_warnings = 0;
+    uint32_t other_targets = 0; ///< that are not the documented ones
 };
 
 /// Largest error that matters of a texel, in the unit of the role.
@@ -41,28 +42,35 @@ double findRange(ImageRole role)
     return role == ImageRole::light ? 16 : role == ImageRole::normal ? 2 : 1;
 }
 
-struct Targets
+/// True if the stored targets are those of normal quality. Source: docs/textures.md, cook/texels/README.md.
+bool hasDocumentedTargets(ImageRole role, const ImageRecord& stored)
 {
-    double error, smooth;
-};
-
-/// Return the targets of normal quality. Source: docs/textures.md.
-Targets findTargets(const texels::PlainImage& image)
-{
-    constexpr double kNone = 1e9;
+    const auto isNear = [](float target, double documented)
+    { return std::abs(double{target} - documented) <= 1e-6 * documented; };
     const auto share = [](double decibels) { return std::pow(10, -decibels / 20); };
-    const bool is_small = std::max(image.record.width, image.record.height) <= 256;
-    switch (image.role)
+    const bool is_small = std::max(stored.width, stored.height) <= 256;
+    const double usual_normal = 1.5 * std::acos(-1.0) / 180;
+    switch (role)
     {
-    case ImageRole::normal:
-        return {3 * std::acos(-1.0) / 180, kNone};
+    case ImageRole::normal: // by how bumpy it is
+        return stored.target_smooth == 0 && double{stored.target} >= usual_normal * (0.5 - 1e-6) &&
+               double{stored.target} <= usual_normal * (1 + 1e-6);
     case ImageRole::light:
-        return {0.05, kNone};
+        return stored.target_smooth == 0 && isNear(stored.target, 0.05);
     case ImageRole::data:
-        return {share(36), kNone};
+        return stored.target_smooth == 0 && isNear(stored.target, share(37));
     default:
-        return {share(is_small || image.role == ImageRole::cutout ? 39.5 : 36.5), share(53)};
+        return isNear(stored.target_smooth, share(53)) &&
+               isNear(stored.target, share(role == ImageRole::cutout ? 45
+                                           : is_small                ? 42
+                                                                     : 39));
     }
+}
+
+/// Part of a target that an error takes; 0 where there is no target.
+double findShare(double error, float target)
+{
+    return target == 0 ? 0 : error / double{target};
 }
 
 /// Compare one image.
@@ -80,17 +88,20 @@ void measureImage(const texels::PlainImage& plain, const ImageRecord& stored, st
     figures.coverage_difference =
         std::max(figures.coverage_difference, std::abs(recount.coverage - double{stored.coverage_error}));
 
-    const Targets targets = findTargets(plain);
-    const double share = std::max(recount.error / targets.error, recount.smooth / targets.smooth);
+    const double share =
+        std::max(findShare(recount.error, stored.target), findShare(recount.smooth, stored.target_smooth));
     const bool misses = share > 1 + 1e-4, holds = share < 1 - 1e-4;
+    const bool has_targets = hasDocumentedTargets(plain.role, stored);
+    figures.other_targets += !has_targets;
     figures.silent_misses += misses && !is_warned;
     figures.wrong_warnings += holds && is_warned;
     figures.warnings += is_warned;
     ++figures.images;
-    if (difference > 1e-5 || std::abs(above) > 1e-3 || (misses && !is_warned) || (holds && is_warned))
+    if (difference > 1e-5 || std::abs(above) > 1e-3 || (misses && !is_warned) || (holds && is_warned) ||
+        !has_targets)
         fmt::print("{}: {}, stored {} and {}, recounted {} and {}, targets {} and {}, 99.9 % {} and {}{}\n",
                    name, imageRoleName(static_cast<uint32_t>(plain.role)), stored.error, stored.error_smooth,
-                   recount.error, recount.smooth, targets.error, targets.smooth, stored.error_p999,
+                   recount.error, recount.smooth, stored.target, stored.target_smooth, stored.error_p999,
                    recount.p999, is_warned ? ", warned of" : "");
 }
 
@@ -156,6 +167,7 @@ int judge(const Figures& figures)
     judgement.record("error_p999 below its recount, of the range", figures.percentile_below);
     judgement.record("error_p999 above its recount, of the range", figures.percentile_above);
     judgement.record("stored coverage off its recount", figures.coverage_difference);
+    judgement.record("targets other than documented", figures.other_targets);
     judgement.record("targets missed without a warning", figures.silent_misses);
     judgement.record("warnings of targets that are held", figures.wrong_warnings);
     return judgement.finish();
