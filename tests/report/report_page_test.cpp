@@ -189,6 +189,35 @@ TEST_F(Page, namesImagesByMaterialAndRole)
     EXPECT_NE(dom.find(">metallicRoughness<"), std::string::npos);
 }
 
+TEST_F(Page, marksTexturesThatMissTheirTarget)
+{
+    Json report = makeReport(3);
+    const auto encode = [&](size_t asset, double decibels, bool holds, const char* reason)
+    {
+        Json& texture = report["assets"][asset]["textures"][0];
+        texture["bytes"] = 1000 - asset; // the first is shown
+        texture["encoding"] = {{"role", "color"},
+                               {"error", {{"psnr_db", decibels}}},
+                               {"error_p999", {{"psnr_db", 9.0}}},
+                               {"error_smooth", {{"psnr_db", nullptr}}},
+                               {"target", {{"psnr_db", 39.0}}},
+                               {"target_smooth", nullptr},
+                               {"holds_target", holds},
+                               {"reason", reason},
+                               {"estimates", Json::array()}};
+    };
+    encode(0, 31.5, false, "target");
+    encode(1, 39.5, true, "target");
+    encode(2, 32.5, true, "budget");
+    ASSERT_TRUE(writeReport(report.dump(), folder / "page.html", "").ok());
+    const std::string dom = open("page.html");
+    EXPECT_NE(dom.find("1 texture misses its target"), std::string::npos);
+    EXPECT_NE(dom.find("31.5 dB (target 39.0 dB, missed)"), std::string::npos);
+    EXPECT_EQ(countOccurrences(dom, ">39.0 dB ✗<"), 1u);
+    EXPECT_EQ(countOccurrences(dom, ">39.0 dB<"), 2u) << "a budget asks for no error";
+    EXPECT_EQ(getNumber(dom, "cut"), 0);
+}
+
 TEST_F(Page, saysWhatWasSlowAndWhichSettingHelps)
 {
     ASSERT_TRUE(writeReport(makeReport(40).dump(), folder / "page.html", "").ok());

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstring>
 #include <vector>
 
@@ -117,33 +118,60 @@ struct MipTexels
     std::vector<bool> is_smooth; ///< of each texel
 };
 
-/// Find the texels whose cell of 4 x 4 spans at most 4 of 255 codes. Return the number of such cells.
+/// List the texels of a cell of 4 x 4.
+std::vector<size_t> listCell(const MipTexels& mip, size_t column, size_t row)
+{
+    std::vector<size_t> texels;
+    for (size_t y = 4 * row; y < std::min(mip.plain.size() / mip.width, 4 * row + 4); ++y)
+        for (size_t x = 4 * column; x < std::min<size_t>(mip.width, 4 * column + 4); ++x)
+            texels.push_back(y * mip.width + x);
+    return texels;
+}
+
+/// True if no channel that is read spans more than 4 of 255 codes in a cell.
+bool isFlat(const PlainImage& image, const MipTexels& mip, size_t column, size_t row)
+{
+    const std::vector<size_t> texels = listCell(mip, column, row);
+    double span = 0;
+    for (const size_t c : listChannels(image))
+    {
+        const auto [low, high] =
+            std::minmax_element(texels.begin(), texels.end(),
+                                [&](size_t a, size_t b) { return mip.plain[a][c] < mip.plain[b][c]; });
+        span = std::max(span, mip.plain[*high][c] - mip.plain[*low][c]);
+    }
+    return span <= 4.0 / 255 + 1e-9;
+}
+
+/// Find the texels of smooth cells: flat ones with at most two among the eight around them that are not. Cells
+/// of the border repeat beyond it. Return the number of smooth cells.
 uint64_t findSmooth(const PlainImage& image, MipTexels& mip, uint64_t& cells)
 {
-    const size_t height = mip.plain.size() / mip.width;
+    const auto columns = static_cast<ptrdiff_t>((mip.width + 3) / 4);
+    const auto rows = static_cast<ptrdiff_t>((mip.plain.size() / mip.width + 3) / 4);
+    std::vector<bool> is_flat;
+    for (ptrdiff_t cell = 0; cell < columns * rows; ++cell)
+        is_flat.push_back(
+            isFlat(image, mip, static_cast<size_t>(cell % columns), static_cast<size_t>(cell / columns)));
     uint64_t smooth = 0;
     mip.is_smooth.resize(mip.plain.size());
-    for (size_t top = 0; top < height; top += 4)
-        for (size_t left = 0; left < mip.width; left += 4, ++cells)
+    for (ptrdiff_t cell = 0; cell < columns * rows; ++cell)
+    {
+        int rough = 0;
+        for (ptrdiff_t neighbour = 0; neighbour < 9; ++neighbour)
         {
-            std::vector<size_t> texels;
-            for (size_t y = top; y < std::min(height, top + 4); ++y)
-                for (size_t x = left; x < std::min<size_t>(mip.width, left + 4); ++x)
-                    texels.push_back(y * mip.width + x);
-            double span = 0;
-            for (const size_t c : listChannels(image))
-            {
-                const auto [low, high] = std::minmax_element(texels.begin(), texels.end(),
-                                                             [&](size_t a, size_t b)
-                                                             { return mip.plain[a][c] < mip.plain[b][c]; });
-                span = std::max(span, mip.plain[*high][c] - mip.plain[*low][c]);
-            }
-            if (span > 4.0 / 255 + 1e-9)
-                continue;
-            ++smooth;
-            for (const size_t texel : texels)
-                mip.is_smooth[texel] = true;
+            const ptrdiff_t x = std::clamp<ptrdiff_t>(cell % columns + neighbour % 3 - 1, 0, columns - 1);
+            const ptrdiff_t y = std::clamp<ptrdiff_t>(cell / columns + neighbour / 3 - 1, 0, rows - 1);
+            rough += is_flat[static_cast<size_t>(y * columns + x)] ? 0 : 1;
         }
+        if (!is_flat[static_cast<size_t>(cell)] || rough > 2)
+            continue;
+        ++smooth;
+        for (const size_t texel :
+             listCell(mip, static_cast<size_t>(cell % columns), static_cast<size_t>(cell / columns)))
+            mip.is_smooth[texel] = true;
+    }
+    cells += is_flat.size();
     return smooth;
 }
 
