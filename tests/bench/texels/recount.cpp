@@ -143,8 +143,8 @@ bool isFlat(const PlainImage& image, const MipTexels& mip, size_t column, size_t
     return span <= 4.0 / 255 + 1e-9;
 }
 
-/// Find the texels of smooth cells: flat ones with at most two among the eight around them that are not. Cells
-/// of the border repeat beyond it. Return the number of smooth cells.
+/// Find the texels of smooth cells: flat ones with at most two among the eight around them that are not.
+/// Cells of the border repeat beyond it. Return the number of smooth cells.
 uint64_t findSmooth(const PlainImage& image, MipTexels& mip, uint64_t& cells)
 {
     const auto columns = static_cast<ptrdiff_t>((mip.width + 3) / 4);
