@@ -2,7 +2,7 @@
 #include "cook/estimates/estimate.h"
 
 #include "cook/json/json.h"
-#include "cook/texels/error_estimate.h"
+#include "cook/texels/search/error_estimate.h"
 #include "cook/texels/texel_source.h"
 #include "cook/tools/sha256.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/texels/search.h"
+#include "cook/texels/search/search.h"
 
 #include <array>
 #include <cstdint>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cook/texels/rules/texture_rules.h"
-#include "cook/texels/search.h"
+#include "cook/texels/search/search.h"
 #include "formats/base/result.h"
 
 #include <cstdint>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
 #include "cook/texels/role.h"
-#include "cook/texels/search.h"
+#include "cook/texels/search/search.h"
 #include "cook/tools/child_processes.h"
 #include "formats/base/program.h"
 #include "formats/pack/image_error.h"

@@ -1,6 +1,6 @@
 // Estimates from sampled blocks beside full counts.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/texels/block_sample.h"
+#include "cook/texels/search/block_sample.h"
 #include "tests/support/sanitized.h"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // Channels come back through layout and swizzle, whatever a format stores.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/texels/candidate.h"
-#include "cook/texels/encode.h"
+#include "cook/texels/encoding/candidate.h"
+#include "cook/texels/encoding/encode.h"
 #include "cook/texels/role.h"
 #include "tests/texels/test_images.h"
 

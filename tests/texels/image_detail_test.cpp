@@ -1,6 +1,6 @@
 // Expected errors of blocks beside variances counted texel by texel.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/texels/error_estimate.h"
+#include "cook/texels/search/error_estimate.h"
 #include "tests/texels/test_images.h"
 
 #include <cmath>

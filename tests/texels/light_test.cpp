@@ -1,6 +1,6 @@
 // Light without limit keeps its target in each family, by the decoder of libastcenc.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/texels/search.h"
+#include "cook/texels/search/search.h"
 #include "formats/base/half.h"
 #include "formats/texels/decode_texels.h"
 #include "tests/texels/astc_reference.h"

@@ -1,8 +1,8 @@
 // Cut-outs: as many decoded texels pass the alpha test as plain ones.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/texels/match_coverage.h"
+#include "cook/texels/search/match_coverage.h"
 
-#include "cook/texels/search.h"
+#include "cook/texels/search/search.h"
 #include "formats/texels/decode_texels.h"
 #include "tests/texels/test_images.h"
 

@@ -1,7 +1,7 @@
 // The format of an image: its error is what a recount by another decoder says, and holds the target.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/texels/error_estimate.h"
-#include "cook/texels/search.h"
+#include "cook/texels/search/error_estimate.h"
+#include "cook/texels/search/search.h"
 #include "tests/texels/astc_reference.h"
 #include "tests/texels/test_images.h"
 

@@ -1,7 +1,7 @@
 // Targets of error are stricter where errors are seen. Smooth areas keep off edges.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/texels/smooth_cells.h"
-#include "cook/texels/target.h"
+#include "cook/texels/encoding/smooth_cells.h"
+#include "cook/texels/search/target.h"
 #include "tests/texels/test_images.h"
 
 #include <cmath>

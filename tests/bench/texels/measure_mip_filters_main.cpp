@@ -2,7 +2,7 @@
 // with supersampled pictures.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
-#include "cook/texels/plain_image.h"
+#include "cook/texels/encoding/plain_image.h"
 #include "cook/texels/role.h"
 #include "formats/base/program.h"
 #include "formats/pack/part_materials.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/texels/encode.h"
+#include "cook/texels/encoding/encode.h"
 
-#include "cook/texels/astc_encoder.h"
-#include "cook/texels/block_encoder.h"
+#include "cook/texels/encoding/astc_encoder.h"
+#include "cook/texels/encoding/block_encoder.h"
 #include "formats/base/assert.h"
 #include "formats/base/half.h"
 #include "formats/texels/decode_texels.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/texels/error_histogram.h"
+#include "cook/texels/encoding/error_histogram.h"
 
-#include "cook/texels/texel_error.h"
+#include "cook/texels/encoding/texel_error.h"
 
 #include <algorithm>
 #include <cmath>

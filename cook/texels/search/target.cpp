@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/texels/target.h"
+#include "cook/texels/search/target.h"
 
-#include "cook/texels/texel_error.h"
+#include "cook/texels/encoding/texel_error.h"
 #include "formats/base/double3.h"
 #include "formats/pack/image_error.h"
 

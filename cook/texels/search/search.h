@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/texels/encode.h"
-#include "cook/texels/target.h"
+#include "cook/texels/encoding/encode.h"
+#include "cook/texels/search/target.h"
 
 #include <optional>
 #include <span>

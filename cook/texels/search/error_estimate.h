@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/texels/encode.h"
-#include "cook/texels/image_detail.h"
+#include "cook/texels/encoding/encode.h"
+#include "cook/texels/search/image_detail.h"
 
 namespace hearth::texels
 {
@@ -15,9 +15,9 @@ struct SquareSums
     std::array<double, 4> smooth{};
 };
 
-/// Estimate of the error of an image in the format of a candidate, and of its smooth texels: from a 32nd of the
-/// blocks of each mip, of the finest at least 64 and at most 128, of each other 24 and 32. It encodes on the
-/// caller's thread.
+/// Estimate of the error of an image in the format of a candidate, and of its smooth texels: from a 32nd of
+/// the blocks of each mip, of the finest at least 64 and at most 128, of each other 24 and 32. It encodes on
+/// the caller's thread.
 class ErrorEstimate
 {
 public:

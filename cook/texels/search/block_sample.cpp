@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/texels/block_sample.h"
+#include "cook/texels/search/block_sample.h"
 
 #include <algorithm>
 #include <cmath>

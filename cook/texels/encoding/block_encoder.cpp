@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/texels/block_encoder.h"
+#include "cook/texels/encoding/block_encoder.h"
 
 #include "cook/texels/bc/bc1.h"
 #include "cook/texels/bc/bc4.h"

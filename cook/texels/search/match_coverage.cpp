@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/texels/match_coverage.h"
+#include "cook/texels/search/match_coverage.h"
 
 #include "formats/texels/decode_texels.h"
 

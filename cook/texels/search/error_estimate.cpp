@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/texels/error_estimate.h"
+#include "cook/texels/search/error_estimate.h"
 
-#include "cook/texels/block_sample.h"
+#include "cook/texels/search/block_sample.h"
 #include "formats/texels/decode_texels.h"
 #include "formats/texels/plain_decoder.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/texels/astc_encoder.h"
+#include "cook/texels/encoding/astc_encoder.h"
 
 #include "formats/base/assert.h"
 #include "formats/base/half.h"

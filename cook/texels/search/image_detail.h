@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/texels/smooth_cells.h"
+#include "cook/texels/encoding/smooth_cells.h"
 
 #include <array>
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/texels/texel_error.h"
+#include "cook/texels/encoding/texel_error.h"
 
 #include "formats/base/assert.h"
 #include "formats/base/double3.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/texels/plain_image.h"
+#include "cook/texels/encoding/plain_image.h"
 
 #include "formats/base/assert.h"
 #include "formats/texels/decode_texels.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/texels/search.h"
+#include "cook/texels/search/search.h"
 
-#include "cook/texels/error_estimate.h"
-#include "cook/texels/match_coverage.h"
+#include "cook/texels/search/error_estimate.h"
+#include "cook/texels/search/match_coverage.h"
 #include "formats/base/assert.h"
 
 #include <algorithm>
@@ -16,12 +16,12 @@ using namespace formats;
 namespace
 {
 
-// A miss costs an encoding. So a candidate is encoded only if its estimate holds the target with room for doubt,
-// and is estimated from more blocks until that is clear. Estimates are off by 6 %, then by 4, 3 and 2.6 %.
+// A miss costs an encoding. So a candidate is encoded only if its estimate holds the target with room for
+// doubt, and is estimated from more blocks until that is clear. Estimates are off by 6 %, then by 4, 3, 2.6.
 constexpr double kSureShares[] = {0.85, 0.905, 0.925, 0.97};
 
-// Power of the bits by which errors fall: the usual one below and above the target, and the least that a guess
-// believes. A share of 0 has no logarithm.
+// Power of the bits by which errors fall: the usual one below and above the target, and the least that a
+// guess believes. A share of 0 has no logarithm.
 constexpr double kUsualSlopeToFewer = -0.8, kUsualSlopeToMore = -1.1, kFlattestSlope = -0.3, kMinShare = 1e-3;
 
 // Guesses alone may come near from one side, a candidate at a time. After so many the middle has its turn.

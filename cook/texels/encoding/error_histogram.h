@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/texels/plain_image.h"
+#include "cook/texels/encoding/plain_image.h"
 
 #include <cstdint>
 #include <span>

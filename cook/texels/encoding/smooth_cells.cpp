@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/texels/smooth_cells.h"
+#include "cook/texels/encoding/smooth_cells.h"
 
-#include "cook/texels/texel_error.h"
+#include "cook/texels/encoding/texel_error.h"
 
 #include <tbb/parallel_for.h>
 

@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/texels/encode.h"
+#include "cook/texels/encoding/encode.h"
 
 #include <cstddef>
 #include <vector>

@@ -3,10 +3,10 @@
 #pragma once
 
 #include "cook/texels/blocks/block_texels.h"
-#include "cook/texels/candidate.h"
-#include "cook/texels/error_histogram.h"
-#include "cook/texels/smooth_cells.h"
-#include "cook/texels/texel_error.h"
+#include "cook/texels/encoding/candidate.h"
+#include "cook/texels/encoding/error_histogram.h"
+#include "cook/texels/encoding/smooth_cells.h"
+#include "cook/texels/encoding/texel_error.h"
 
 #include <cstddef>
 #include <span>

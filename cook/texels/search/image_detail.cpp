@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/texels/image_detail.h"
+#include "cook/texels/search/image_detail.h"
 
-#include "cook/texels/texel_error.h"
+#include "cook/texels/encoding/texel_error.h"
 
 #include <tbb/parallel_for.h>
 

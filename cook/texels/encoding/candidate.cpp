@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/texels/candidate.h"
+#include "cook/texels/encoding/candidate.h"
 
 #include <algorithm>
 #include <bit>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/texels/encode.h"
+#include "cook/texels/encoding/encode.h"
 
 namespace hearth::texels
 {
