@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <gtest/gtest.h>
+#include <random>
 
 namespace hearth::texels
 {
@@ -173,6 +174,47 @@ TEST(TexelSearch, smoothAreasAreEncodedFinerThanLibastcencAloneWould)
     const ImageError error = encodeCandidate(plain, *wide, target, Effort::normal).error;
     EXPECT_LT(error.smooth, alone.smooth * 0.9);
     EXPECT_LE(error.error, alone.error);
+}
+
+TEST(TexelSearch, onlyBlocksWithSmoothTexelsAreSearchedLonger)
+{
+    // no side is a multiple of a block's: the last ones reach over the edges
+    constexpr uint32_t kWidth = 250, kHeight = 246, kBlock = 8, kColumns = 32, kBytes = 16;
+    const auto sky = [random = std::mt19937(7)](uint32_t c, double x, double y) mutable
+    {
+        const double wave = 0.5 + 0.1 * std::sin(3 * x + c) * std::cos(2 * y - 0.5 * c);
+        const double grain = static_cast<double>(random() & 0xFFFF) / 65535.0 - 0.5;
+        return c == 3 ? 1
+                      : wave + (x * y > 0.5                                 ? grain
+                                : std::abs(std::fmod(2 * x + y, 1.0)) < 0.4 ? 0.2
+                                                                            : 0);
+    };
+    const TestImage image = makeImage(kWidth, kHeight, 1, TexelFormat::rgba8_srgb, sky);
+    const PlainImage plain = image.plain(ImageRole::color, kRgb);
+    const std::vector<SmoothCells> smooth = findSmoothCells(plain);
+    ASSERT_FALSE(smooth.empty());
+    const std::vector<Candidate> candidates = listCandidates(plain, kAstc);
+    const auto wide =
+        std::ranges::find(candidates, "astc-8x8-srgb", [](const Candidate& one) { return one.traits->name; });
+    ASSERT_NE(wide, candidates.end());
+    const std::vector<std::byte> longer = encodeImage(plain, smooth, *wide, Effort::normal);
+    const std::vector<std::byte> usual = encodeImage(plain, {}, *wide, Effort::normal);
+    uint32_t changed = 0, rough = 0;
+    for (uint32_t block = 0; block * kBytes < longer.size(); ++block)
+    {
+        const uint32_t left = block % kColumns * kBlock, top = block / kColumns * kBlock;
+        bool has_smooth = false;
+        for (uint32_t y = top; y < std::min(top + kBlock, kHeight); ++y)
+            for (uint32_t x = left; x < std::min(left + kBlock, kWidth); ++x)
+                has_smooth = has_smooth || smooth[0].contains(x, y);
+        const bool differs = !std::ranges::equal(std::span(longer).subspan(size_t{block} * kBytes, kBytes),
+                                                 std::span(usual).subspan(size_t{block} * kBytes, kBytes));
+        EXPECT_TRUE(has_smooth || !differs) << block;
+        changed += differs ? 1 : 0;
+        rough += has_smooth ? 0 : 1;
+    }
+    EXPECT_GT(changed, 10u);
+    EXPECT_GT(rough, 100u);
 }
 
 TEST(TexelSearch, noCheaperFootprintHoldsTheTarget)

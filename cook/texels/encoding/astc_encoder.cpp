@@ -59,8 +59,8 @@ astcenc_profile findProfile(TexelCoding coding)
     }
 }
 
-/// Return the decibels that a block with smooth cells must have. libastcenc is content with fewer the larger a
-/// block is, 40 dB at medium effort and 6x6, and leaves the seams that a finer format would have to avoid.
+/// Return the decibels that a block with smooth cells must have. libastcenc is content with fewer the larger
+/// a block is, 40 dB at medium effort and 6x6, and leaves the seams that a finer format would have to avoid.
 /// Draft stays quick.
 float findSmoothLimit(Effort effort)
 {
