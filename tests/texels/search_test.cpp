@@ -217,6 +217,17 @@ TEST(TexelSearch, onlyBlocksWithSmoothTexelsAreSearchedLonger)
     EXPECT_GT(rough, 100u);
 }
 
+TEST(TexelSearch, tinyImagesHaveTheFinestOfFormatsWithTheSameBytes)
+{
+    // one block of 8x8 and of 5x5 covers it, four of 4x4 do, and two of 5x4
+    const TestImage five = makeImage(5, 5, 1, TexelFormat::rgba8_srgb, photographic(0.3));
+    const PlainImage plain = five.plain(ImageRole::color, kRgb);
+    const Target loose{.error = 0.9, .smooth = 0.9};
+    const Encoding encoding =
+        encodeForTarget(plain, listCandidates(plain, kAstc), loose, Effort::draft, false);
+    EXPECT_EQ(encoding.candidate.traits->name, "astc-5x5-srgb");
+}
+
 TEST(TexelSearch, noCheaperFootprintHoldsTheTarget)
 {
     const Case c = makeCases()[0];

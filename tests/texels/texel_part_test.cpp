@@ -22,11 +22,14 @@ using namespace formats;
 class TexelPart : public ::testing::Test
 {
 protected:
-    /// Encode the images of the small pack. paint.png, a cut-out, is full of noise and gets a rule. Return
-    /// the records of the part.
+    /// Encode the images of the small pack. paint.png, a cut-out, is full of noise and gets a rule; it is so
+    /// large that blocks take fewer bytes than plain texels. Return the records of the part.
     std::vector<ImageRecord> encoded(const TextureChoice& choice, TexelOptions options = {})
     {
         test::PackModel model = test::smallPack();
+        model.images[0].width = model.images[0].height = 16;
+        model.images[0].mip_count = 1;
+        model.image_data[0].resize(size_t{16} * 16 * 4);
         std::mt19937 random(7);
         for (std::byte& byte : model.image_data[0])
             byte = static_cast<std::byte>(random() & 0xFF);

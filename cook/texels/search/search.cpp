@@ -4,6 +4,7 @@
 #include "cook/texels/search/error_estimate.h"
 #include "cook/texels/search/match_coverage.h"
 #include "formats/base/assert.h"
+#include "formats/pack/pack_view.h"
 
 #include <algorithm>
 #include <cmath>
@@ -181,16 +182,38 @@ Encoding encodeBest(const PlainImage& image, std::span<const Candidate> candidat
     return encodeMeasured(image, smooth, candidates[best_estimate], target, effort);
 }
 
+/// Leave out candidates that take no fewer bytes than one of more bits a texel: a mip that is smaller than a
+/// block takes a whole one. The last candidate, without compression, stays.
+std::vector<Candidate> keepUseful(const PlainImage& image, std::span<const Candidate> candidates)
+{
+    const auto bytes = [&](const Candidate& candidate)
+    {
+        ImageRecord record = image.record;
+        record.format = static_cast<uint32_t>(candidate.traits->format);
+        return mipOffset(record, record.mip_count);
+    };
+    std::vector<Candidate> kept;
+    for (const Candidate& candidate : candidates)
+    {
+        while (!kept.empty() && bytes(kept.back()) >= bytes(candidate) &&
+               kept.back().bitsPerTexel() < candidate.bitsPerTexel())
+            kept.pop_back();
+        kept.push_back(candidate);
+    }
+    return kept;
+}
+
 } // namespace
 
-Encoding encodeForTarget(const PlainImage& image, std::span<const Candidate> candidates, const Target& target,
-                         Effort effort, bool strict)
+Encoding encodeForTarget(const PlainImage& image, std::span<const Candidate> all_candidates,
+                         const Target& target, Effort effort, bool strict)
 {
-    HEARTH_ASSERT(!candidates.empty());
+    HEARTH_ASSERT(!all_candidates.empty());
+    const std::vector<Candidate> candidates = keepUseful(image, all_candidates);
     if (candidates.size() == 1)
         return encodeCandidate(image, candidates.back(), target, effort);
     const ImageDetail detail(image);
-    Estimates estimates(image, detail, candidates.first(candidates.size() - 1), target, effort);
+    Estimates estimates(image, detail, std::span(candidates).first(candidates.size() - 1), target, effort);
     Encoding encoding = encodeBest(image, candidates, target, effort, strict, detail.smooth, estimates);
     encoding.estimates = estimates.list();
     return encoding;
