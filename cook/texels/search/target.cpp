@@ -89,7 +89,7 @@ Target findTarget(ImageRole role, Effort quality)
     case ImageRole::normal:
         return {degrees(pick(quality, 3.0, 1.5, 0.75)), kUnlimited};
     case ImageRole::data:
-        return {decibels(pick(quality, 33.0, 37.0, 41.0)), kUnlimited};
+        return {decibels(pick(quality, 33.0, 36.0, 41.0)), kUnlimited};
     case ImageRole::light:
         return {pick(quality, 0.1, 0.05, 0.03), kUnlimited};
     default:

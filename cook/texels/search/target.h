@@ -16,7 +16,7 @@ struct Target
 };
 
 /// Return the target of a role, without regard to content: peak signal-to-noise ratios of 34, 39, 43 dB for
-/// colours, of smooth texels 48, 53, 55; 33, 37, 41 for data; 3, 1.5, .75 degrees for normals; .1, .05, .03
+/// colours, of smooth texels 48, 53, 55; 33, 36, 41 for data; 3, 1.5, .75 degrees for normals; .1, .05, .03
 /// stops for light. Measured over four mips, of which the coarser ones lose more: the finest mip is 1 to 5 dB
 /// better.
 Target findTarget(formats::ImageRole role, Effort quality);
