@@ -36,9 +36,9 @@ DecodedTexel weightByAlpha(const DecodedTexel& texel)
     return {weigh(texel[0]), weigh(texel[1]), weigh(texel[2]), texel[3]};
 }
 
-uint32_t difference(uint16_t a, uint16_t b)
+uint16_t difference(uint16_t a, uint16_t b)
 {
-    return a < b ? uint32_t{b} - a : uint32_t{a} - b;
+    return static_cast<uint16_t>(std::max(a, b) - std::min(a, b));
 }
 
 double stops(uint16_t half)
@@ -82,18 +82,24 @@ template <typename Codes>
 void ErrorSum::addCodes(std::span<const DecodedTexel> plain, std::span<const DecodedTexel> stored,
                         const Codes& codes)
 {
-    std::array<uint64_t, 4> sums{};
-    for (size_t i = 0; i < plain.size(); ++i)
+    // Halves of the squares are summed in 32 bits, which processors do for four channels at a time.
+    constexpr size_t kMaxRun = 1u << 16;
+    for (size_t begin = 0; begin < plain.size(); begin += kMaxRun)
     {
-        const DecodedTexel a = codes(plain[i]), b = codes(stored[i]);
-        for (uint32_t c = 0; c < 4; ++c)
+        std::array<uint32_t, 4> low{}, high{};
+        for (size_t i = begin; i < std::min(begin + kMaxRun, plain.size()); ++i)
         {
-            const uint32_t d = difference(a[c], b[c]);
-            sums[c] += d * d; // below 2^32
+            const DecodedTexel a = codes(plain[i]), b = codes(stored[i]);
+            for (uint32_t c = 0; c < 4; ++c)
+            {
+                const uint16_t d = difference(a[c], b[c]);
+                low[c] += static_cast<uint16_t>(uint32_t{d} * d);
+                high[c] += static_cast<uint16_t>(uint32_t{d} * d >> 16);
+            }
         }
+        for (uint32_t c = 0; c < 4; ++c)
+            whole_[c] += has(channels_, c) ? low[c] + (uint64_t{high[c]} << 16) : 0;
     }
-    for (uint32_t c = 0; c < 4; ++c)
-        whole_[c] += has(channels_, c) ? sums[c] : 0;
 }
 
 void ErrorSum::add(const ErrorSum& other)
@@ -158,10 +164,11 @@ uint32_t codeDifference(ImageRole role, Channels channels, const DecodedTexel& p
     const bool is_cutout = role == ImageRole::cutout;
     const DecodedTexel a = is_cutout ? weightByAlpha(plain) : plain;
     const DecodedTexel b = is_cutout ? weightByAlpha(stored) : stored;
-    uint32_t largest = 0;
+    // a mask in place of a branch lets processors take four channels at a time
+    std::array<uint16_t, 4> differences;
     for (uint32_t c = 0; c < 4; ++c)
-        largest = std::max(largest, has(channels, c) ? difference(a[c], b[c]) : 0);
-    return largest;
+        differences[c] = static_cast<uint16_t>(difference(a[c], b[c]) & (has(channels, c) ? 0xFFFF : 0));
+    return std::max(std::max(differences[0], differences[1]), std::max(differences[2], differences[3]));
 }
 
 uint32_t countMeasuredMips(const ImageRecord& image)
