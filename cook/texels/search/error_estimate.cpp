@@ -32,7 +32,7 @@ struct MipBounds
     SampleBounds finest;
     SampleBounds coarser;
 };
-constexpr MipBounds kFirstBounds{{64, 128}, {24, 32}}, kRefinedBounds{{32, 192}, {8, 48}};
+constexpr MipBounds kFirstBounds{{32, 64}, {12, 16}}, kRefinedBounds{{64, 160}, {16, 40}};
 
 // Blocks in a row of the image that sampled blocks are put into.
 constexpr size_t kMosaicColumns = 32;

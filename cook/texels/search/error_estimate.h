@@ -16,7 +16,7 @@ struct SquareSums
 };
 
 /// Estimate of the error of an image in the format of a candidate, and of its smooth texels: from a 32nd of
-/// the blocks of each mip, of the finest at least 64 and at most 128, of each other 24 and 32. It encodes on
+/// the blocks of each mip, of the finest at least 32 and at most 64, of each other 12 and 16. It encodes on
 /// the caller's thread.
 class ErrorEstimate
 {
@@ -25,7 +25,7 @@ public:
     ErrorEstimate(const PlainImage& image, const ImageDetail& detail, const Candidate& candidate,
                   Effort effort);
 
-    /// Encode more blocks: of the finest mip at least 32 and at most 192, of each other 8 and 48.
+    /// Encode more blocks: of the finest mip at least 64 and at most 160, of each other 16 and 40.
     void refine();
 
     /// Return what is estimated of all texels and of the smooth ones, and 0 of the rest.

@@ -17,9 +17,14 @@ using namespace formats;
 namespace
 {
 
-// A miss costs an encoding. So a candidate is encoded only if its estimate holds the target with room for
-// doubt, and is estimated from more blocks until that is clear. Estimates are off by 6 %, then by 4, 3, 2.6.
-constexpr double kSureShares[] = {0.85, 0.905, 0.925, 0.97};
+// Few blocks tell which candidates are far from the target; more are encoded while there is doubt. Estimates
+// are off by 8.5 %, then by 4.5, 3.5 and 2.9. One that is wrongly too large costs bytes, one that is too small
+// an encoding, so a candidate is encoded only if its estimate holds the target with room for doubt.
+constexpr struct
+{
+    double low, high;
+} kDoubts[] = {{0.75, 1.3}, {0.9, 1.06}};
+constexpr double kSureShares[] = {0.9, 0.93, 0.97};
 
 // Power of the bits by which errors fall: the usual one below and above the target, and the least that a
 // guess believes. A share of 0 has no logarithm.
@@ -58,7 +63,13 @@ public:
     double get(size_t i)
     {
         if (!estimates_[i])
+        {
             estimates_[i].emplace(image_, detail_, candidates_[i], effort_);
+            for (const auto& doubt : kDoubts)
+                if (const double share = findShare(estimates_[i]->error(), target_);
+                    share > doubt.low && share < doubt.high)
+                    estimates_[i]->refine();
+        }
         return findShare(estimates_[i]->error(), target_);
     }
 
