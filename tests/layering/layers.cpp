@@ -48,6 +48,7 @@ const std::vector<Layer>& layers()
         {"cook/mesh", {"formats"}},
         {"cook/pages", {"formats"}},
         {"cook/sampling", {"formats"}},
+        {"cook/environment", {"formats"}},
         {"cook/animation_bounds", {"formats"}},
 
         {"cook/animation_compression", {"formats", "cook/tools", "cook/animation_bounds"}},
@@ -117,6 +118,8 @@ const std::vector<Layer>& layers()
          {"formats", "cook/command_line", "cook/tools", "cook/animation_compression", "pipelines/import/part",
           "pipelines/import/images", "pipelines/import/source", "pipelines/import/gltf",
           "pipelines/import/scans"}},
+
+        {"pipelines/environments", {"formats", "cook/environment", "pipelines/import/images"}},
 
         // from parts to a pack, and the build graph
         {"pipelines/verify", {"formats", "cook/json"}},

@@ -3,12 +3,15 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/base/byte_reader.h"
 #include "pipelines/import/images/codecs.h"
+#include "pipelines/import/images/float_image.h"
 
 #include <OpenEXR/IexBaseExc.h>
 #include <OpenEXR/ImfArray.h>
 #include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfRgbaFile.h>
 #include <OpenEXR/ImfTileDescription.h>
 
@@ -309,13 +312,89 @@ Result<DecodedImage> decode(const EncodedImage& source)
     return image;
 }
 
-} // namespace
+/// Return an image whose rows readRow(y, row) fills, from top to bottom.
+template <typename ReadRow>
+Result<FloatImage> readRows(const EncodedImage& source, const Window& data, ReadRow&& readRow)
+{
+    HEARTH_TRY(checkImageSize(source, data.width(), data.height()));
+    FloatImage image{static_cast<uint32_t>(data.width()), static_cast<uint32_t>(data.height()), 1, {}};
+    image.texels.resize(size_t{image.width} * image.height);
+    for (uint32_t y = 0; y < image.height; ++y)
+        readRow(data.top + y, std::span(image.texels).subspan(size_t{y} * image.width, image.width));
+    return image;
+}
 
-Result<DecodedImage> decodeExr(const EncodedImage& source)
+/// Read an image with chroma, which OpenEXR converts in half floats.
+Result<FloatImage> readChroma(const EncodedImage& source)
+{
+    MemoryStream stream(source.bytes);
+    Imf::RgbaInputFile file(stream, 0);
+    const Window data(file.dataWindow());
+    std::vector<Imf::Rgba> texels(static_cast<size_t>(data.width()));
+    file.setFrameBuffer(texels.data() - data.left, 1, 0);
+    return readRows(source, data,
+                    [&](int64_t y, std::span<Float3> row)
+                    {
+                        file.readPixels(static_cast<int>(y));
+                        for (size_t x = 0; x < row.size(); ++x)
+                            row[x] = {texels[x].r, texels[x].g, texels[x].b};
+                    });
+}
+
+/// Read R, G and B, or Y as grey. Channels that the file lacks are 0.
+Result<FloatImage> readColors(const EncodedImage& source, Imf::InputFile& file, bool is_grey)
+{
+    const Window data(file.header().dataWindow());
+    std::vector<Float3> texels(static_cast<size_t>(data.width()));
+    Imf::FrameBuffer buffer;
+    const auto addSlice = [&](const char* name, float& first)
+    {
+        auto* const base = reinterpret_cast<char*>(&first) - data.left * static_cast<int64_t>(sizeof(Float3));
+        buffer.insert(name, Imf::Slice(Imf::FLOAT, base, sizeof(Float3), 0));
+    };
+    if (is_grey)
+        addSlice("Y", texels[0].x);
+    else
+    {
+        addSlice("R", texels[0].x);
+        addSlice("G", texels[0].y);
+        addSlice("B", texels[0].z);
+    }
+    file.setFrameBuffer(buffer);
+    return readRows(source, data,
+                    [&](int64_t y, std::span<Float3> row)
+                    {
+                        file.readPixels(static_cast<int>(y));
+                        for (size_t x = 0; x < row.size(); ++x)
+                            row[x] = is_grey ? Float3{texels[x].x, texels[x].x, texels[x].x} : texels[x];
+                    });
+}
+
+Result<FloatImage> decodeFloats(const EncodedImage& source)
+{
+    setLibraryLimits(source.limits);
+    HEARTH_TRY(checkHeader(source));
+    MemoryStream stream(source.bytes);
+    Imf::InputFile file(stream, 0);
+    if (!file.isComplete())
+        return source.malformed("EXR: parts of the image are missing");
+    const Imf::ChannelList& channels = file.header().channels();
+    const auto has = [&](const char* name) { return channels.findChannel(name) != nullptr; };
+    if (has("RY") || has("BY"))
+        return readChroma(source);
+    const bool has_colors = has("R") || has("G") || has("B");
+    if (!has_colors && !has("Y"))
+        return source.unsupported("EXR images without a channel R, G, B or Y are not read");
+    return readColors(source, file, !has_colors);
+}
+
+/// Return the result of decoding, or the exception that OpenEXR threw as an error.
+template <typename Decode>
+auto catchProblems(const EncodedImage& source, Decode&& decodeSource) -> decltype(decodeSource(source))
 {
     try
     {
-        return decode(source);
+        return decodeSource(source);
     }
     catch (const std::exception& problem)
     {
@@ -325,6 +404,18 @@ Result<DecodedImage> decodeExr(const EncodedImage& source)
     {
         return source.malformed("EXR: the file cannot be read");
     }
+}
+
+} // namespace
+
+Result<DecodedImage> decodeExr(const EncodedImage& source)
+{
+    return catchProblems(source, decode);
+}
+
+Result<FloatImage> decodeExrFloats(const EncodedImage& source)
+{
+    return catchProblems(source, decodeFloats);
 }
 
 } // namespace hearth::import

@@ -4,6 +4,7 @@
 #include "formats/base/byte_reader.h"
 #include "formats/base/half.h"
 #include "pipelines/import/images/codecs.h"
+#include "pipelines/import/images/float_image.h"
 
 #include <array>
 #include <charconv>
@@ -176,9 +177,14 @@ bool readScanline(ByteReader& reader, std::vector<Rgbe>& scanline)
     return coded ? readComponents(reader, scanline) : readFlat(reader, *first, scanline);
 }
 
-} // namespace
+/// File whose header is read and checked.
+struct OpenHdr
+{
+    ByteReader reader; ///< at the first scanline
+    HdrHeader header;
+};
 
-Result<DecodedImage> decodeHdr(const EncodedImage& source)
+Result<OpenHdr> openHdr(const EncodedImage& source)
 {
     ByteReader reader(source.bytes);
     const auto header = readHeader(reader, source.bytes);
@@ -189,32 +195,63 @@ Result<DecodedImage> decodeHdr(const EncodedImage& source)
         return source.unsupported("HDR images in XYZ are not read");
     HEARTH_TRY(checkImageSize(source, header->width, header->height));
     HEARTH_TRY(checkFileSize(source, "HDR", reader.position() + minTexelBytes(*header)));
-    HEARTH_ASSIGN_OR_RETURN(DecodedImage image,
-                            allocateImage(source, header->width, header->height, ChannelType::float16));
-    const bool columns = header->rows_are_columns;
-    std::vector<Rgbe> scanline(columns ? image.height : image.width);
-    const size_t scanline_count = columns ? image.width : image.height;
+    return OpenHdr{reader, *header};
+}
+
+/// Read all texels: calls store(index in the upright image, colour) for each.
+template <typename Store>
+Status readTexels(const EncodedImage& source, OpenHdr& file, Store&& store)
+{
+    const HdrHeader& header = file.header;
+    const auto width = static_cast<size_t>(header.width), height = static_cast<size_t>(header.height);
+    const bool columns = header.rows_are_columns;
+    std::vector<Rgbe> scanline(columns ? height : width);
+    const size_t scanline_count = columns ? width : height;
     for (size_t i = 0; i < scanline_count; ++i)
     {
-        if (!readScanline(reader, scanline))
+        if (!readScanline(file.reader, scanline))
             return source.malformed("HDR: scanline " + std::to_string(i) +
                                     " is damaged or the file ends too early");
         for (size_t k = 0; k < scanline.size(); ++k)
         {
             const size_t along_x = columns ? i : k;
             const size_t along_y = columns ? k : i;
-            const size_t x = header->x_descends ? image.width - 1 - along_x : along_x;
-            const size_t y = header->y_descends ? along_y : image.height - 1 - along_y;
+            const size_t x = header.x_descends ? width - 1 - along_x : along_x;
+            const size_t y = header.y_descends ? along_y : height - 1 - along_y;
             const Rgbe& t = scanline[k];
-            const double scale = t[3] == 0 ? 0.0 : std::ldexp(1.0 / header->exposure, t[3] - (128 + 8));
-            const std::array<uint16_t, 4> half = {halfFromFloat(static_cast<float>(t[0] * scale)),
-                                                  halfFromFloat(static_cast<float>(t[1] * scale)),
-                                                  halfFromFloat(static_cast<float>(t[2] * scale)),
-                                                  halfFromFloat(1)};
-            std::memcpy(image.texels.data() + (y * image.width + x) * sizeof(half), half.data(),
-                        sizeof(half));
+            const double scale = t[3] == 0 ? 0.0 : std::ldexp(1.0 / header.exposure, t[3] - (128 + 8));
+            store(y * width + x, Float3{static_cast<float>(t[0] * scale), static_cast<float>(t[1] * scale),
+                                        static_cast<float>(t[2] * scale)});
         }
     }
+    return success();
+}
+
+} // namespace
+
+Result<DecodedImage> decodeHdr(const EncodedImage& source)
+{
+    HEARTH_ASSIGN_OR_RETURN(OpenHdr file, openHdr(source));
+    HEARTH_ASSIGN_OR_RETURN(DecodedImage image, allocateImage(source, file.header.width, file.header.height,
+                                                              ChannelType::float16));
+    HEARTH_TRY(readTexels(source, file,
+                          [&](size_t at, Float3 color)
+                          {
+                              const std::array<uint16_t, 4> half = {halfFromFloat(color.x),
+                                                                    halfFromFloat(color.y),
+                                                                    halfFromFloat(color.z), halfFromFloat(1)};
+                              std::memcpy(image.texels.data() + at * sizeof(half), half.data(), sizeof(half));
+                          }));
+    return image;
+}
+
+Result<FloatImage> decodeHdrFloats(const EncodedImage& source)
+{
+    HEARTH_ASSIGN_OR_RETURN(OpenHdr file, openHdr(source));
+    FloatImage image{
+        static_cast<uint32_t>(file.header.width), static_cast<uint32_t>(file.header.height), 1, {}};
+    image.texels.resize(size_t{image.width} * image.height);
+    HEARTH_TRY(readTexels(source, file, [&](size_t at, Float3 color) { image.texels[at] = color; }));
     return image;
 }
 

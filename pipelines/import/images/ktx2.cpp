@@ -5,6 +5,7 @@
 #include "pipelines/import/images/basis_etc1s.h"
 #include "pipelines/import/images/basis_uastc.h"
 #include "pipelines/import/images/channels.h"
+#include "pipelines/import/images/float_image.h"
 #include "pipelines/import/images/ktx2_container.h"
 #include "pipelines/import/images/stored_image.h"
 
@@ -31,7 +32,7 @@ bool levelsFit(const EncodedImage& source, const Ktx2File& file, const StoredFor
         const Ktx2Level& level = file.levels[i];
         const auto offset = static_cast<uint64_t>(level.bytes.data() - source.bytes.data());
         if (level.uncompressed_size !=
-            format.levelBytes(std::max(1u, file.width >> i), std::max(1u, file.height >> i)))
+            file.faces * format.levelBytes(std::max(1u, file.width >> i), std::max(1u, file.height >> i)))
             return false;
         if (file.scheme == Ktx2Scheme::none &&
             (level.bytes.size() != level.uncompressed_size || offset % alignment != 0))
@@ -165,6 +166,27 @@ Result<DecodedImage> decodeKtx2(const EncodedImage& source)
     if (file.is_premultiplied)
         straightenAlpha(image);
     image.transfer = file.transfer;
+    return image;
+}
+
+Result<FloatImage> decodeKtx2Floats(const EncodedImage& source)
+{
+    HEARTH_ASSIGN_OR_RETURN(const Ktx2File file, readKtx2(source, Ktx2Kind::image_or_cube));
+    const auto format = findStoredFormat(file.vk_format);
+    if (!format || !format->hasFloats())
+        return source.unsupported("KTX2: VkFormat " + std::to_string(file.vk_format) + " has no floats");
+    if (file.is_mirrored || file.is_bottom_up)
+        return source.unsupported("KTX2: floats are read with KTXorientation rd alone");
+    HEARTH_ASSIGN_OR_RETURN(const LevelBytes level, readFinestLevel(source, file, *format));
+    FloatImage image{file.width, file.height, file.faces, {}};
+    const size_t face_bytes = level.bytes.size() / file.faces;
+    for (uint32_t face = 0; face < file.faces; ++face)
+    {
+        const StoredImage stored{*format, file.width, file.height,
+                                 level.bytes.subspan(face * face_bytes, face_bytes), file.swizzle};
+        HEARTH_ASSIGN_OR_RETURN(const std::vector<Float3> texels, decodeStoredFloats(source, stored));
+        image.texels.insert(image.texels.end(), texels.begin(), texels.end());
+    }
     return image;
 }
 

@@ -55,9 +55,9 @@ bool hasGlobalData(uint32_t scheme)
 
 constexpr const char* kCubeMap = "KTX2: a cube map is not an image: save the face that is meant as one";
 
-Status checkDimensions(const EncodedImage& source, const Ktx2Header& header)
+Status checkDimensions(const EncodedImage& source, const Ktx2Header& header, Ktx2Kind kind)
 {
-    if (header.face_count == 6)
+    if (header.face_count == 6 && kind == Ktx2Kind::image)
         return source.unsupported(kCubeMap);
     if (header.depth != 0)
         return source.unsupported("KTX2: a volume is not an image: save the slice that is meant as one");
@@ -69,7 +69,7 @@ Status checkDimensions(const EncodedImage& source, const Ktx2Header& header)
     return success();
 }
 
-Status checkHeader(const EncodedImage& source, const Ktx2Header& header)
+Status checkHeader(const EncodedImage& source, const Ktx2Header& header, Ktx2Kind kind)
 {
     const auto wrong = [&](const char* what) { return source.malformed(std::string("KTX2: ") + what); };
     if (header.width == 0)
@@ -94,7 +94,7 @@ Status checkHeader(const EncodedImage& source, const Ktx2Header& header)
         return wrong("sgdByteOffset without sgdByteLength");
     if ((header.globalSize() != 0) != hasGlobalData(header.scheme))
         return wrong("supercompression global data is missing or out of place");
-    HEARTH_TRY(checkDimensions(source, header));
+    HEARTH_TRY(checkDimensions(source, header, kind));
     return checkImageSize(source, header.width, header.height);
 }
 
@@ -211,13 +211,13 @@ std::optional<std::vector<Ktx2Level>> readLevels(std::span<const std::byte> byte
 
 } // namespace
 
-Result<Ktx2File> readKtx2(const EncodedImage& source)
+Result<Ktx2File> readKtx2(const EncodedImage& source, Ktx2Kind kind)
 {
     ByteReader reader(source.bytes);
     const auto header = reader.read<Ktx2Header>();
     if (!header)
         return source.malformed("KTX2: the file ends in the header");
-    HEARTH_TRY(checkHeader(source, *header));
+    HEARTH_TRY(checkHeader(source, *header, kind));
 
     const auto descriptor = checkedPart(source.bytes, header->descriptor_offset, header->descriptor_size);
     const auto key_values = checkedPart(source.bytes, header->key_value_offset, header->key_value_size);
@@ -230,6 +230,7 @@ Result<Ktx2File> readKtx2(const EncodedImage& source)
     file.vk_format = header->vk_format;
     file.width = header->width;
     file.height = header->height;
+    file.faces = header->face_count;
     file.scheme = static_cast<Ktx2Scheme>(header->scheme);
     file.global_data = *global_data;
     if (!readDescriptor(*descriptor, file))

@@ -31,6 +31,7 @@ struct Ktx2File
     uint32_t vk_format = 0;
     uint32_t width = 0;
     uint32_t height = 0;
+    uint32_t faces = 1; ///< 6: a cube
     Ktx2Scheme scheme = Ktx2Scheme::none;
     uint32_t color_model = 0;
     Transfer transfer = Transfer::unsaid;  ///< of the data format descriptor
@@ -43,8 +44,15 @@ struct Ktx2File
     std::vector<Ktx2Level> levels; ///< finest first
 };
 
-/// Read a texture of one image: two dimensions, one layer, one face.
-/// errors: image_malformed, image_unsupported (arrays, cubes, volumes), input_too_large.
-Result<Ktx2File> readKtx2(const EncodedImage& source);
+/// Textures that a reader takes.
+enum class Ktx2Kind : uint8_t
+{
+    image,
+    image_or_cube,
+};
+
+/// Read a texture of two dimensions and one layer, which is a single image unless `kind` lets it be a cube.
+/// errors: image_malformed, image_unsupported (arrays, volumes, other cubes), input_too_large.
+Result<Ktx2File> readKtx2(const EncodedImage& source, Ktx2Kind kind = Ktx2Kind::image);
 
 } // namespace hearth::import

@@ -41,6 +41,11 @@ struct StoredFormat
     PlainLayout plain{};
 
     uint32_t blockBytes() const { return traits != nullptr ? traits->block_bytes : plain.texel_bytes; }
+    bool hasFloats() const
+    {
+        return traits != nullptr ? traits->coding == formats::TexelCoding::float_value
+                                 : plain.coding == ChannelCoding::float_value;
+    }
     uint32_t blockHeight() const { return traits != nullptr ? traits->block_height : 1u; }
 
     /// Return the bytes of a level of width x height texels; blocks that reach over the edge are whole.

@@ -87,17 +87,11 @@ bool fitHalves(std::span<const std::byte> floats)
     return true;
 }
 
-bool hasFloats(const StoredFormat& format)
-{
-    return format.traits != nullptr ? format.traits->coding == formats::TexelCoding::float_value
-                                    : format.plain.coding == ChannelCoding::float_value;
-}
-
 /// Return the type that holds all numbers of a format. Compressed formats of one and two channels have more
 /// than 8 bits; the others were made from 8.
 ChannelType channelType(const StoredFormat& format)
 {
-    if (hasFloats(format))
+    if (format.hasFloats())
         return ChannelType::float16;
     const bool is_small = format.traits != nullptr
                               ? format.traits->channels > 2
@@ -105,6 +99,11 @@ ChannelType channelType(const StoredFormat& format)
                                     std::all_of(format.plain.channels.begin(), format.plain.channels.end(),
                                                 [](ChannelBits bits) { return bits.count <= 8; });
     return is_small ? ChannelType::unorm8 : ChannelType::unorm16;
+}
+
+bool isFloat32(const StoredFormat& format)
+{
+    return format.traits == nullptr && format.plain.channels[0].count == 32;
 }
 
 bool hasOnlyRed(const StoredFormat& format)
@@ -121,7 +120,7 @@ class RowDecoder
 public:
     RowDecoder(const StoredImage& stored)
         : stored_(stored),
-          one_(hasFloats(stored.format) ? kHalfOne : kUnormOne),
+          one_(stored.format.hasFloats() ? kHalfOne : kUnormOne),
           copies_red_(stored.swizzle.empty() && hasOnlyRed(stored.format))
     {
     }
@@ -217,9 +216,47 @@ Result<DecodedImage> decodeStored(const EncodedImage& source, const StoredImage&
         store(rows, image.type,
               std::span(image.texels).subspan(size_t{y} * stored.width * image.texelBytes()));
     }
-    if (stored.format.plain.channels[0].count == 32 && !fitHalves(stored.bytes))
+    if (isFloat32(stored.format) && !fitHalves(stored.bytes))
         image.notes.push_back({Issue::image_depth, "its channels are floats of 32 bits, 16 are kept"});
     return image;
+}
+
+Result<std::vector<Float3>> decodeStoredFloats(const EncodedImage& source, const StoredImage& stored)
+{
+    HEARTH_ASSERT(stored.format.hasFloats());
+    std::vector<Float3> texels(size_t{stored.width} * stored.height);
+    if (!isFloat32(stored.format))
+    {
+        HEARTH_ASSIGN_OR_RETURN(const DecodedImage image, decodeStored(source, stored));
+        for (size_t i = 0; i < texels.size(); ++i)
+        {
+            DecodedTexel texel;
+            std::memcpy(texel.data(), image.texels.data() + i * sizeof(texel), sizeof(texel));
+            texels[i] = {floatFromHalf(texel[0]), floatFromHalf(texel[1]), floatFromHalf(texel[2])};
+        }
+        return texels;
+    }
+    HEARTH_TRY(checkImageSize(source, stored.width, stored.height));
+    const std::string_view swizzle = !stored.swizzle.empty()     ? stored.swizzle
+                                     : hasOnlyRed(stored.format) ? std::string_view("rrr1")
+                                                                 : std::string_view("rgba");
+    const PlainLayout& layout = stored.format.plain;
+    for (size_t i = 0; i < texels.size(); ++i)
+    {
+        const auto bits = stored.bytes.subspan(i * layout.texel_bytes, layout.texel_bytes);
+        for (size_t c = 0; c < 3; ++c)
+        {
+            const size_t from = std::string_view("rgba").find(swizzle[c]);
+            float& value = texels[i][static_cast<int>(c)];
+            if (from == std::string_view::npos)
+                value = swizzle[c] == '1' ? 1.0f : 0.0f;
+            else if (layout.channels[from].count != 0)
+                value = std::bit_cast<float>(readBits(bits, layout.channels[from]));
+            else
+                value = from == 3 ? 1.0f : 0.0f;
+        }
+    }
+    return texels;
 }
 
 } // namespace hearth::import

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "formats/base/math.h"
 #include "pipelines/import/images/codecs.h"
 #include "pipelines/import/images/stored_format.h"
 
@@ -26,5 +27,9 @@ struct StoredImage
 /// signed numbers from -1 to 1 become 0 to 1, as normal maps have them.
 /// errors: those of allocateImage
 Result<DecodedImage> decodeStored(const EncodedImage& source, const StoredImage& stored);
+
+/// Decode the colours of a level of floats without loss. The format has floats (asserted).
+/// errors: those of allocateImage
+Result<std::vector<Float3>> decodeStoredFloats(const EncodedImage& source, const StoredImage& stored);
 
 } // namespace hearth::import
