@@ -2,10 +2,10 @@
 #include "formats/texels/plain_decoder.h"
 
 #include "formats/base/half.h"
+#include "formats/texels/shared_exponent.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
 
 namespace hearth::formats
@@ -19,8 +19,6 @@ uint16_t widen(std::byte channel)
     return static_cast<uint16_t>(static_cast<uint16_t>(channel) * 257);
 }
 
-/// Decode a texel with a shared exponent. Source: Vulkan 1.3, section 39.3 (E5B9G9R9). Mantissas have fewer
-/// bits than those of half floats, but the largest values are beyond their range and become the largest half.
 /// Widen texels of four channels. Most images have these. Copies of four texels at a time, of which compilers
 /// see that they do not overlap, take a fifth of the time of a loop over all.
 void widenRow(std::span<const std::byte> row, std::span<DecodedTexel> texels)
@@ -42,12 +40,12 @@ void widenRow(std::span<const std::byte> row, std::span<DecodedTexel> texels)
             texels[next][c] = widen(row[4 * next + c]);
 }
 
-DecodedTexel decodeSharedExponent(uint32_t word)
+/// Decode a texel with a shared exponent. Mantissas have fewer bits than those of half floats, and the largest
+/// value is less than the largest half.
+DecodedTexel decodeHalves(uint32_t word)
 {
-    const auto exponent = static_cast<int>(word >> 27);
-    const auto channel = [&](uint32_t shift)
-    { return halfFromFloat(std::ldexp(static_cast<float>(word >> shift & 0x1FF), exponent - 15 - 9)); };
-    return {channel(0), channel(9), channel(18), halfFromFloat(1)};
+    const std::array<float, 3> color = decodeSharedExponent(word);
+    return {halfFromFloat(color[0]), halfFromFloat(color[1]), halfFromFloat(color[2]), halfFromFloat(1)};
 }
 
 } // namespace
@@ -61,7 +59,7 @@ DecodedTexel decodePlainTexel(TexelFormat format, std::span<const std::byte> tex
     {
         uint32_t word;
         std::memcpy(&word, texel.data(), sizeof(word));
-        return decodeSharedExponent(word);
+        return decodeHalves(word);
     }
     case TexelFormat::rgba16_float:
     case TexelFormat::rgba16_unorm:

@@ -1,6 +1,7 @@
 // Tests that texels encoded in formats without compression decode to themselves, or to the nearest.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/texels/plain_encoder.h"
+#include "formats/texels/shared_exponent.h"
 
 #include "formats/base/half.h"
 #include "formats/texels/decode_texels.h"
@@ -64,6 +65,19 @@ TEST(EncodePlain, roundsToTheNearest)
             ASSERT_NEAR(floatFromHalf(shared[i][c]), floatFromHalf(texels[i][c]),
                         floatFromHalf(texels[i][0]) / 511)
                 << i;
+}
+
+TEST(EncodeSharedExponent, hasAnUpperAndALowerEnd)
+{
+    EXPECT_EQ(decodeSharedExponent(encodeSharedExponent({65408, 1e9, -1})),
+              (std::array{65408.0f, 65408.0f, 0.0f}));
+    const TexelFormatTraits& traits = texelTraits(TexelFormat::rgb9e5_float);
+    const uint16_t largest_half = 0x7BFF;
+    EXPECT_EQ(floatFromHalf(encodeAndDecode(traits, {{largest_half, 0, 0, kHalfOne}})[0][0]), 65408)
+        << "rounding up has no exponent left";
+    const double step = std::ldexp(1.0, -24);
+    EXPECT_EQ(decodeSharedExponent(encodeSharedExponent({step, 0.4 * step, 511 * step})),
+              (std::array{static_cast<float>(step), 0.0f, static_cast<float>(511 * step)}));
 }
 
 } // namespace
