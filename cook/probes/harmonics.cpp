@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 
 namespace hearth::probes
 {
@@ -143,8 +144,9 @@ Harmonics projectCubeRow(const Environment& environment, uint32_t panel, uint32_
     return projected;
 }
 
-/// Return the least value of n . matrix n + linear . n over unit vectors. It is the greatest value of the dual
-/// function t - sum of (linear_i / 2)^2 / (eigenvalue_i - t) for t below all eigenvalues, without a gap.
+/// Return the least value of n . matrix n + linear . n over unit vectors. It is the greatest value of the
+/// dual function t - sum of (linear_i / 2)^2 / (eigenvalue_i - t) for t below all eigenvalues, without a
+/// gap.
 /// Source: J. Nocedal, S. Wright, "Numerical optimization", 2006, section 4.3 (trust-region subproblem).
 double minOnSphere(const Eigen::Matrix3d& matrix, const Eigen::Vector3d& linear)
 {

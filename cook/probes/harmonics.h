@@ -14,8 +14,9 @@ namespace hearth::probes
 /// shared::evaluateHarmonics (formats/scene/radiance_transfer.h).
 using Harmonics = std::array<Double3, 9>;
 
-/// Project radiance onto the harmonics. Texels of lat-long images are integrated in closed form; of cubes the
-/// solid angle is exact, and harmonics are means over four points. The same for any number of threads.
+/// Project radiance onto the harmonics. Texels of lat-long images are integrated in closed form; of cubes
+/// the solid angle is exact, and harmonics are means over four points. The same for any number of
+/// threads.
 Harmonics projectRadiance(const environment::Environment& environment);
 
 /// Return the irradiance of a surface with a unit normal.

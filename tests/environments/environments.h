@@ -24,7 +24,8 @@ environment::Environment makeEnvironment(environment::Layout layout, uint32_t he
     return made;
 }
 
-/// Return an environment of random radiance from 0 to 1, with a few texels that are up to 1000 times brighter.
+/// Return an environment of random radiance from 0 to 1, with a few texels that are up to 1000 times
+/// brighter.
 inline environment::Environment makeNoise(environment::Layout layout, uint32_t height, uint32_t seed)
 {
     std::mt19937 random(seed);

@@ -69,7 +69,8 @@ Ktx2 floatCube(const std::array<Float3, 6>& faces)
     return cube;
 }
 
-/// Write an EXR of floats, 2 x 1 texels, with the named channels; channel c of texel x is (c + 1) * scale[x].
+/// Write an EXR of floats, 2 x 1 texels, with the named channels; channel c of texel x is (c + 1) *
+/// scale[x].
 std::string writeExr(const std::string& path, const std::string& names, Float2 scale)
 {
     Imf::Header header(2, 1);

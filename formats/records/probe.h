@@ -1,0 +1,72 @@
+// Chunks of light probes: an environment's light as surfaces of each roughness reflect it, and its
+// harmonics. See FORMAT.md, "Probes".
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/records/container.h"
+
+#include <cmath>
+
+namespace hearth::formats
+{
+
+inline constexpr uint32_t kChunkProbes = fourCC("PROB");      ///< ProbeRecord[]
+inline constexpr uint32_t kChunkProbeTexels = fourCC("PRTX"); ///< u32[]: texels of all probes
+
+/// Numbers of ProbeRecord::harmonics: three colours for each of nine harmonics.
+inline constexpr uint32_t kProbeHarmonicValues = 27;
+
+/// Light of distant surroundings, divided by the luminance of their mean irradiance.
+struct ProbeRecord
+{
+    uint32_t face_size;
+    uint32_t mip_count;
+    uint32_t format;
+    uint32_t flags;
+    Float3 irradiance;
+    float irradiance_luminance;
+    float harmonics[kProbeHarmonicValues];
+    float window;
+    float largest;
+    float error;
+    Range texels;
+    uint32_t reserved[8];
+};
+
+/// Return the roughness of mip 0, 1, ... mip_count - 1, from 0 to 1; at least two mips. A roughness r is
+/// found at lod (mip_count - 1) r (2 - r).
+inline double probeMipRoughness(uint32_t mip, uint32_t mip_count)
+{
+    return 1 - std::sqrt(1 - static_cast<double>(mip) / (mip_count - 1));
+}
+
+/// Return the number of texels of all mips of a cube.
+constexpr uint64_t probeTexelCount(uint32_t face_size, uint32_t mip_count)
+{
+    uint64_t count = 0;
+    for (uint32_t mip = 0; mip < mip_count; ++mip)
+        count += uint64_t{6} * (face_size >> mip) * (face_size >> mip);
+    return count;
+}
+
+} // namespace hearth::formats
+
+HEARTH_RECORD(hearth::formats::ProbeRecord, 192,
+              HEARTH_FIELD(hearth::formats::ProbeRecord, face_size,
+                           "texels of an edge of mip 0, a power of two"),
+              HEARTH_FIELD(hearth::formats::ProbeRecord, mip_count, "2 or more"),
+              HEARTH_FIELD(hearth::formats::ProbeRecord, format, "a TexelFormat: rgb9e5"),
+              HEARTH_FIELD(hearth::formats::ProbeRecord, flags, "0"),
+              HEARTH_FIELD(hearth::formats::ProbeRecord, irradiance,
+                           "mean irradiance E_probe of the environment: pi times its mean radiance"),
+              HEARTH_FIELD(hearth::formats::ProbeRecord, irradiance_luminance, "Y(E_probe), above 0"),
+              HEARTH_FIELD(hearth::formats::ProbeRecord, harmonics,
+                           "nine colours: coefficients of radiance / Y(E_probe), windowed"),
+              HEARTH_FIELD(hearth::formats::ProbeRecord, window,
+                           "degree l was attenuated by 1 / (1 + window (l (l + 1))^2)"),
+              HEARTH_FIELD(hearth::formats::ProbeRecord, largest,
+                           "largest channel of mip 0 before it was stored; above 65408 it was cut"),
+              HEARTH_FIELD(hearth::formats::ProbeRecord, error,
+                           "rms error of all stored texels by solid angle, as a share of their rms"),
+              HEARTH_FIELD(hearth::formats::ProbeRecord, texels, "of chunk PRTX: mip, face, row, column"),
+              HEARTH_FIELD(hearth::formats::ProbeRecord, reserved, "0"));
