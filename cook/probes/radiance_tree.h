@@ -40,14 +40,13 @@ struct RadianceTree
     std::vector<RadiancePanel> panels;
 };
 
-/// Rows of the finest level for a cube of 128 on a side: they are 0.18 degrees, a quarter of alpha of its
-/// first filtered mip, 0.011.
-inline constexpr uint32_t kMinTreeRows = 1024;
+/// Rows of the finest level for a cube of one texel a side. Those of 128 are 0.18 degrees then, a quarter
+/// of alpha of the first filtered mip of six, 0.011.
+inline constexpr uint32_t kTreeRowsOfSide = 8;
 
 /// Build the tree of an environment times `scale`. Its finest level has min_rows to 2 min_rows - 1 rows
 /// from zenith to nadir: means of several texels, or equal parts of one. The same for any number of
 /// threads.
-RadianceTree buildRadianceTree(const environment::Environment& environment, double scale,
-                               uint32_t min_rows = kMinTreeRows);
+RadianceTree buildRadianceTree(const environment::Environment& environment, double scale, uint32_t min_rows);
 
 } // namespace hearth::probes

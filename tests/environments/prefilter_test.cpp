@@ -29,7 +29,7 @@ constexpr uint32_t kMips = 6;
 constexpr Double3 kSun{0.48, 0.6, 0.64};
 
 /// Filter a small probe. rows  of the tree; the default suits the side as the cooker's rows suit its side
-std::vector<ProbeMip> filter(const Environment& sky, uint32_t side = 32, uint32_t rows = 256)
+std::vector<ProbeMip> filter(const Environment& sky, uint32_t side = 32, uint32_t rows = 32 * kTreeRowsOfSide)
 {
     return prefilter(buildRadianceTree(sky, 1, rows), side, kMips);
 }
@@ -173,7 +173,7 @@ TEST(Prefilter, attenuatesDegree1AsTheLobeDoes)
 TEST(Prefilter, isTheSumOverManyPoints)
 {
     const Environment day = makeEnvironment(Layout::lat_long, 128, radianceOfDay);
-    const std::vector<ProbeMip> mips = filter(day, 32, kMinTreeRows);
+    const std::vector<ProbeMip> mips = filter(day, 32, 1024);
     for (uint32_t m = 1; m < kMips; ++m)
     {
         // points a sixth of alpha apart, or closer

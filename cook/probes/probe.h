@@ -1,0 +1,36 @@
+// Probe of an environment, as parts and packs store it.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/environment/environment.h"
+#include "formats/base/result.h"
+#include "formats/records/probe.h"
+
+#include <string>
+#include <vector>
+
+namespace hearth::probes
+{
+
+/// Side of mip 0 of a probe: 524,160 bytes in all.
+inline constexpr uint32_t kProbeSide = 128;
+/// Mips of a probe: the last of kProbeSide has 4 x 4 texels a face. A lobe of roughness 1 is as wide as
+/// three of them.
+inline constexpr uint32_t kProbeMips = 6;
+
+struct Probe
+{
+    formats::ProbeRecord record{}; ///< its texels are those below
+    std::vector<uint32_t> texels;  ///< RGB9E5, in the order of the record
+};
+
+/// Cook the probe of an environment. It is divided by the luminance of the mean irradiance, so an
+/// environment that is twice as bright has the same texels and harmonics. The same for any number of
+/// threads.
+/// name  of the environment's file, in messages
+/// side  of mip 0: a power of two from 32 to 1024 (asserted)
+/// errors: image_unsupported for an environment without light, or brighter than floats are
+Result<Probe> cookProbe(const environment::Environment& environment, const std::string& name,
+                        uint32_t side = kProbeSide);
+
+} // namespace hearth::probes
