@@ -154,6 +154,7 @@ Status checkDeformedMeshes(const PackView& view);
 Status checkAssets(const PackView& view);
 Status checkExtras(const PackView& view);
 Status checkSpecularTable(const PackView& view);
+Status checkProbeTables(const PackView& view);
 Status checkSurroundings(const PackView& view);
 Status checkBrickTables(const PackView& view);
 

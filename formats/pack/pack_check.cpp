@@ -120,6 +120,11 @@ Status checkSpecular(const PackView& view)
     return check::checkSpecularTable(view);
 }
 
+Status checkProbes(const PackView& view)
+{
+    return check::checkProbeTables(view);
+}
+
 Status checkBricks(const PackView& view)
 {
     return check::checkBrickTables(view);
@@ -151,6 +156,7 @@ Status checkPackWith(const PackView& view, check::BulkData bulk, const CheckHier
     HEARTH_TRY(check::checkAssets(view));
     HEARTH_TRY(check::checkExtras(view));
     HEARTH_TRY(checkSpecular(view));
+    HEARTH_TRY(checkProbes(view));
     HEARTH_TRY(check::checkSurroundings(view));
     return checkBricks(view);
 }

@@ -55,6 +55,9 @@ Status checkHierarchy(const PackView& view, const PageLoop& loop = serialPageLoo
 /// Check only the table of specular occlusion: the contents of a specular part.
 Status checkSpecular(const PackView& view);
 
+/// Check only the probes: the contents of a probe part.
+Status checkProbes(const PackView& view);
+
 /// Check only the grid of bricks: the contents of a bricks part.
 Status checkBricks(const PackView& view);
 

@@ -12,6 +12,7 @@
 #include "formats/records/extras.h"
 #include "formats/records/material_layers.h"
 #include "formats/records/mesh.h"
+#include "formats/records/probe.h"
 #include "formats/records/provenance.h"
 #include "formats/records/scene.h"
 #include "formats/records/specular.h"
@@ -350,6 +351,8 @@ public:
     std::span<const uint32_t> clusterJoints() const { return cluster_joints_.records.span(); }
     /// Return one table or none.
     std::span<const SpecularTableRecord> specularTables() const { return specular_tables_.records.span(); }
+    std::span<const ProbeRecord> probes() const { return probes_.records.span(); }
+    std::span<const uint32_t> probeTexels() const { return probe_texels_.records.span(); }
     /// Return the surroundings of each instance; empty if nothing is baked.
     std::span<const SurroundingsRecord> surroundings() const { return surroundings_.records.span(); }
     std::span<const RadianceTransferRecord> radianceTransfers() const
@@ -417,9 +420,9 @@ private:
                         material_layers_, images_, texture_pieces_, skins_, joints_, animations_, channels_,
                         keys_, key_bits_, morph_weights_, meshes_, levels_, groups_, clusters_, pages_,
                         page_parents_, authored_levels_, deformed_meshes_, deformed_clusters_,
-                        cluster_joints_, specular_tables_, surroundings_, radiance_transfers_, brick_grid_,
-                        brick_groups_, bricks_, brick_opacity_, brick_albedo_, brick_normals_,
-                        brick_emission_, brick_lighting_, reflectors_);
+                        cluster_joints_, specular_tables_, probes_, probe_texels_, surroundings_,
+                        radiance_transfers_, brick_grid_, brick_groups_, bricks_, brick_opacity_,
+                        brick_albedo_, brick_normals_, brick_emission_, brick_lighting_, reflectors_);
     }
     static std::string_view asText(const ChunkData& data)
     {
@@ -458,6 +461,8 @@ private:
     Table<DeformedClusterRecord> deformed_clusters_{kChunkDeformedClusters};
     Table<uint32_t> cluster_joints_{kChunkClusterJoints};
     Table<SpecularTableRecord> specular_tables_{kChunkSpecular};
+    Table<ProbeRecord> probes_{kChunkProbes};
+    Table<uint32_t> probe_texels_{kChunkProbeTexels};
     Table<SurroundingsRecord> surroundings_{kChunkSurroundings};
     Table<RadianceTransferRecord> radiance_transfers_{kChunkRadianceTransfers};
     Table<BrickGridRecord> brick_grid_{kChunkBrickGrid};

@@ -7,6 +7,7 @@
 #include "formats/records/extras.h"
 #include "formats/records/material_layers.h"
 #include "formats/records/mesh.h"
+#include "formats/records/probe.h"
 #include "formats/records/provenance.h"
 #include "formats/records/scene.h"
 #include "formats/records/specular.h"
@@ -109,6 +110,9 @@ inline constexpr std::array kChunkList{
                                        "parts only: where their groups can be"),
     makeTableInfo<SpecularTableRecord>(kChunkSpecular, 1, ChunkPurpose::light,
                                        "the table of specular occlusion, one at most"),
+    makeTableInfo<ProbeRecord>(kChunkProbes, 1, ChunkPurpose::light, "light probes"),
+    ChunkInfo{kChunkProbeTexels, 1, ChunkPurpose::light, "u32[]", false,
+              "of all probes: RGB9E5 by mip, face, row and column"},
     makeTableInfo<SurroundingsRecord>(kChunkSurroundings, 1, ChunkPurpose::light,
                                       "surroundings of each instance"),
     makeTableInfo<RadianceTransferRecord>(kChunkRadianceTransfers, 1, ChunkPurpose::light,

@@ -44,6 +44,9 @@ const std::vector<MalformedPack>& malformedProvenance();
 /// Invalid tables of specular occlusion.
 const std::vector<MalformedPack>& malformedSpecularTables();
 
+/// Invalid light probes.
+const std::vector<MalformedPack>& malformedProbes();
+
 /// Invalid surroundings of instances.
 const std::vector<MalformedPack>& malformedSurroundings();
 

@@ -269,6 +269,28 @@ void addSpecularTable(PackModel& pack)
     pack.specular_tables.push_back(table);
 }
 
+/// Probe of 2 x 2 and one texel a face: each face has another colour.
+void addProbe(PackModel& pack)
+{
+    ProbeRecord probe{};
+    probe.face_size = probe.mip_count = 2;
+    probe.format = static_cast<uint32_t>(TexelFormat::rgb9e5_float);
+    probe.irradiance = {3, 2, 1};
+    probe.irradiance_luminance = 2.1403f;
+    probe.harmonics[0] = 1.2f;
+    probe.harmonics[5] = -0.1f;
+    probe.window = 0.01f;
+    probe.largest = 1;
+    probe.error = 0.001f;
+    probe.texels = {0, 30};
+    pack.probes = {probe};
+    for (uint32_t i = 0; i < probe.texels.count; ++i)
+    {
+        const uint32_t face = i < 24 ? i / 4 : i - 24;
+        pack.probe_texels.push_back(15u << 27 | 64 * (face + 1) << 18 | 400u << 9 | 64 * face);
+    }
+}
+
 /// Light of occluders at the last instance; the visibility of others is that of their mesh.
 void addSurroundings(PackModel& pack)
 {
@@ -619,6 +641,8 @@ std::vector<ChunkImage> PackModel::chunks(bool compressed) const
     table(kChunkDeformedClusters, deformed_clusters);
     table(kChunkClusterJoints, cluster_joints);
     table(kChunkSpecular, specular_tables);
+    table(kChunkProbes, probes);
+    table(kChunkProbeTexels, probe_texels);
     table(kChunkSurroundings, surroundings);
     table(kChunkRadianceTransfers, radiance_transfers);
     table(kChunkBrickGrid, brick_grids);
@@ -650,6 +674,7 @@ PackModel smallPack()
     pack.authored_levels.push_back({0, 1, 2, intern(pack, "strip_LOD2.obj")});
     addBounds(pack);
     addSpecularTable(pack);
+    addProbe(pack);
     addSurroundings(pack);
     addBricks(pack);
     addAsset(pack);

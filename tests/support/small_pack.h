@@ -8,6 +8,7 @@
 #include "formats/records/mesh.h"
 #include "formats/records/provenance.h"
 #include "formats/records/scene.h"
+#include "formats/records/probe.h"
 #include "formats/records/specular.h"
 #include "formats/records/surroundings.h"
 #include "tests/support/brick_model.h"
@@ -57,6 +58,8 @@ struct PackModel
     std::vector<uint32_t> cluster_joints;
     std::vector<formats::DeformedGroupRecord> deformed_groups; ///< only in parts
     std::vector<formats::SpecularTableRecord> specular_tables;
+    std::vector<formats::ProbeRecord> probes;
+    std::vector<uint32_t> probe_texels;
     std::vector<formats::SurroundingsRecord> surroundings;
     std::vector<formats::RadianceTransferRecord> radiance_transfers;
     std::vector<uint32_t> instance_meshes; ///< parts only

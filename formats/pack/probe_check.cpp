@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/pack/check_tools.h"
+#include "formats/records/texel_format.h"
+
+#include <bit>
+
+namespace hearth::formats::check
+{
+
+namespace
+{
+
+constexpr const char* kProbeKind = "probe";
+// Largest side of a face: larger images are no use for reflections, and sums of texels fit 32 bits.
+constexpr uint32_t kMaxProbeSide = 4096;
+
+Status checkProbe(const PackView& view, size_t i, const ProbeRecord& probe)
+{
+    const auto wrong = [&](std::string detail)
+    { return makeError(view, Issue::meaning_value, kProbeKind, i, std::move(detail)); };
+    if (!std::has_single_bit(probe.face_size) || probe.face_size > kMaxProbeSide)
+        return wrong("faces of " + std::to_string(probe.face_size) + " texels");
+    if (probe.mip_count < 2 || probe.mip_count > static_cast<uint32_t>(std::bit_width(probe.face_size)))
+        return wrong(std::to_string(probe.mip_count) + " mips");
+    if (probe.format != static_cast<uint32_t>(TexelFormat::rgb9e5_float))
+        return wrong("texel format " + std::to_string(probe.format));
+    const Float3 irradiance = probe.irradiance;
+    if (!isNonNegative(irradiance.x) || !isNonNegative(irradiance.y) || !isNonNegative(irradiance.z) ||
+        !isNonNegative(probe.irradiance_luminance) || probe.irradiance_luminance == 0)
+        return wrong("its irradiance is not possible");
+    if (!finite(std::span<const float>(probe.harmonics)))
+        return wrong("a harmonic is not finite");
+    if (!isNonNegative(probe.window) || !isNonNegative(probe.largest) || !isNonNegative(probe.error))
+        return wrong("its window, largest value or error is not possible");
+    if (probe.flags != 0 || !reservedZero(probe.reserved))
+        return makeError(view, Issue::meaning_padding, kProbeKind, i, "a reserved field is not 0");
+    if (const uint64_t count = probeTexelCount(probe.face_size, probe.mip_count); probe.texels.count != count)
+        return makeError(view, Issue::meaning_range, kProbeKind, i,
+                         std::to_string(probe.texels.count) + " texels, its mips have " +
+                             std::to_string(count));
+    return success();
+}
+
+} // namespace
+
+Status checkProbeTables(const PackView& view)
+{
+    RangeCursor texels(view, kProbeKind, "probe texels", view.probeTexels().size());
+    for (size_t i = 0; i < view.probes().size(); ++i)
+    {
+        HEARTH_TRY(checkProbe(view, i, view.probes()[i]));
+        HEARTH_TRY(texels.take(i, view.probes()[i].texels));
+    }
+    return texels.finish();
+}
+
+} // namespace hearth::formats::check

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "tests/formats/malformed_packs.h"
+
+#include <limits>
+
+namespace hearth::test
+{
+
+const std::vector<MalformedPack>& malformedProbes()
+{
+    static const std::vector<MalformedPack> list = {
+        {"probeFaceSize", Issue::meaning_value, "probe 0", [](PackModel& p) { p.probes[0].face_size = 3; }},
+        {"probeWithoutFaces", Issue::meaning_value, "probe 0",
+         [](PackModel& p) { p.probes[0].face_size = 0; }},
+        {"probeLargeFaces", Issue::meaning_value, "probe 0",
+         [](PackModel& p) { p.probes[0].face_size = 1u << 31; }},
+        {"probeOneMip", Issue::meaning_value, "probe 0", [](PackModel& p) { p.probes[0].mip_count = 1; }},
+        {"probeManyMips", Issue::meaning_value, "probe 0", [](PackModel& p) { p.probes[0].mip_count = 3; }},
+        {"probeFormat", Issue::meaning_value, "probe 0", [](PackModel& p) { p.probes[0].format = 0; }},
+        {"probeFlags", Issue::meaning_padding, "probe 0", [](PackModel& p) { p.probes[0].flags = 1; }},
+        {"probeReserved", Issue::meaning_padding, "probe 0",
+         [](PackModel& p) { p.probes[0].reserved[7] = 1; }},
+        {"probeIrradiance", Issue::meaning_value, "probe 0",
+         [](PackModel& p) { p.probes[0].irradiance.z = -1; }},
+        {"probeDark", Issue::meaning_value, "probe 0",
+         [](PackModel& p) { p.probes[0].irradiance_luminance = 0; }},
+        {"probeHarmonic", Issue::meaning_value, "probe 0",
+         [](PackModel& p) { p.probes[0].harmonics[26] = std::numeric_limits<float>::quiet_NaN(); }},
+        {"probeWindow", Issue::meaning_value, "probe 0", [](PackModel& p) { p.probes[0].window = -0.1f; }},
+        {"probeLargest", Issue::meaning_value, "probe 0",
+         [](PackModel& p) { p.probes[0].largest = std::numeric_limits<float>::infinity(); }},
+        {"probeError", Issue::meaning_value, "probe 0", [](PackModel& p) { p.probes[0].error = -1; }},
+        {"probeFewTexels", Issue::meaning_range, "probe 0",
+         [](PackModel& p) { p.probes[0].texels.count = 29; }},
+        {"probeTexelsBehindTheEnd", Issue::meaning_range, "probe 0",
+         [](PackModel& p) { p.probe_texels.pop_back(); }},
+        {"probeTexelsOfNone", Issue::meaning_range, "probe texels 30",
+         [](PackModel& p) { p.probe_texels.push_back(0); }},
+        {"probeTexelsTwice", Issue::meaning_order, "probe 1",
+         [](PackModel& p) { p.probes.push_back(p.probes[0]); }},
+    };
+    return list;
+}
+
+} // namespace hearth::test
