@@ -119,7 +119,8 @@ const std::vector<Layer>& layers()
           "pipelines/import/images", "pipelines/import/source", "pipelines/import/gltf",
           "pipelines/import/scans"}},
 
-        {"pipelines/environments", {"formats", "cook/environment", "pipelines/import/images"}},
+        {"pipelines/environments",
+         {"formats", "cook/command_line", "cook/environment", "cook/probes", "pipelines/import/images"}},
 
         // from parts to a pack, and the build graph
         {"pipelines/verify", {"formats", "cook/json"}},
