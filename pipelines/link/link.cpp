@@ -553,12 +553,51 @@ Status writeBricks(ContainerWriter& writer, const PackView& part)
     return success();
 }
 
-Status writePack(const std::string& path, std::span<const Source> sources,
-                 const std::vector<SpecularTableRecord>& specular, const std::optional<PackView>& bricks,
+/// Open the part with the pack's light probe; nullopt if `path` is empty.
+Result<std::optional<PackView>> openProbe(const std::string& path)
+{
+    if (path.empty())
+        return std::optional<PackView>();
+    HEARTH_ASSIGN_OR_RETURN(PackView part, openPart(path));
+    HEARTH_TRY(checkProbes(part)); // a failure here names the part
+    if (part.probes().empty())
+        return Error{Issue::chunk_missing, path, chunkName(kChunkProbes, 0),
+                     "this is not a probe part: it has no probe"};
+    return std::optional<PackView>(std::move(part));
+}
+
+/// What a pack has once, for all of its sources.
+struct OpenPackParts
+{
+    std::vector<SpecularTableRecord> specular;
+    std::optional<PackView> bricks;
+    std::optional<PackView> probe;
+};
+
+Result<OpenPackParts> openPackParts(const PackParts& parts)
+{
+    OpenPackParts opened;
+    HEARTH_ASSIGN_OR_RETURN(opened.specular, readSpecular(parts.specular));
+    HEARTH_ASSIGN_OR_RETURN(opened.bricks, openBricks(parts.bricks));
+    HEARTH_ASSIGN_OR_RETURN(opened.probe, openProbe(parts.probe));
+    return opened;
+}
+
+Status writeReflectionTables(ContainerWriter& writer, const OpenPackParts& parts)
+{
+    if (!parts.specular.empty())
+        HEARTH_TRY(writer.addRecords<SpecularTableRecord>(kChunkSpecular, parts.specular));
+    if (parts.probe)
+        for (const uint32_t type : {kChunkProbes, kChunkProbeTexels})
+            HEARTH_TRY(copyChunks(writer, *parts.probe, type, 0));
+    return success();
+}
+
+Status writePack(const std::string& path, std::span<const Source> sources, const OpenPackParts& pack_parts,
                  std::span<const std::string> skipped, uint64_t texture_budget)
 {
     HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer, ContainerWriter::create(path, ContainerKind::pack));
-    HEARTH_TRY(writeMeta(writer, sources, bricks, skipped, texture_budget, path));
+    HEARTH_TRY(writeMeta(writer, sources, pack_parts.bricks, skipped, texture_budget, path));
     HEARTH_TRY(writeStrings(writer, sources));
     std::vector<const PackView*> textures;
     for (const Source& source : sources)
@@ -570,11 +609,10 @@ Status writePack(const std::string& path, std::span<const Source> sources,
     HEARTH_TRY(writeMeshes(writer, sources));
     HEARTH_TRY(writeAuthoredLevels(writer, sources));
     HEARTH_TRY(writeDeformedMeshes(writer, sources));
-    if (!specular.empty())
-        HEARTH_TRY(writer.addRecords<SpecularTableRecord>(kChunkSpecular, specular));
+    HEARTH_TRY(writeReflectionTables(writer, pack_parts));
     HEARTH_TRY(writeSurroundings(writer, sources));
-    if (bricks && !bricks->brickGrid().empty())
-        HEARTH_TRY(writeBricks(writer, *bricks));
+    if (pack_parts.bricks && !pack_parts.bricks->brickGrid().empty())
+        HEARTH_TRY(writeBricks(writer, *pack_parts.bricks));
     HEARTH_TRY(writePages(writer, sources));
     HEARTH_TRY(copyImages(writer, sources, images));
     return writer.finish();
@@ -590,8 +628,7 @@ Status checkPackFile(const std::string& path)
 
 } // namespace
 
-Status linkPack(std::span<const SourceParts> sources, const std::string& output,
-                std::span<const std::string> specular_parts, const std::string& bricks_part,
+Status linkPack(std::span<const SourceParts> sources, const std::string& output, const PackParts& pack_parts,
                 std::span<const std::string> skipped, uint64_t texture_budget)
 {
     std::vector<Source> opened;
@@ -601,11 +638,10 @@ Status linkPack(std::span<const SourceParts> sources, const std::string& output,
         opened.push_back(std::move(source));
     }
     HEARTH_TRY(assignOffsets(opened, output));
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<SpecularTableRecord> specular, readSpecular(specular_parts));
-    HEARTH_ASSIGN_OR_RETURN(const std::optional<PackView> bricks, openBricks(bricks_part));
+    HEARTH_ASSIGN_OR_RETURN(const OpenPackParts once, openPackParts(pack_parts));
 
     const std::string unchecked = output + ".unchecked-" + std::to_string(::getpid());
-    Status status = writePack(unchecked, opened, specular, bricks, skipped, texture_budget);
+    Status status = writePack(unchecked, opened, once, skipped, texture_budget);
     if (status.ok())
         status = checkPackFile(unchecked);
     if (status.ok() && ::rename(unchecked.c_str(), output.c_str()) != 0)

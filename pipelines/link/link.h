@@ -6,6 +6,7 @@
 
 #include <span>
 #include <string>
+#include <vector>
 
 namespace hearth::link
 {
@@ -19,21 +20,28 @@ struct SourceParts
     std::string skinning_part;
 };
 
-/// Write the pack of all sources, their scenes side by side: the records of each source follow the previous
-/// source's, with rebased indices. One source is the merge of one. Texels and pages are copied as they are
-/// stored, a piece at a time; equal images once. Groups of deformed meshes get the spheres of the skinning
-/// part.
-/// specular_parts  parts with a table of specular occlusion. A pack has one table: all parts must have the
-///                 same. May be empty
-/// bricks_part     path of the part whose grid of bricks the pack gets; empty: no bricks
+/// Parts of what a pack has once, for all of its sources.
+struct PackParts
+{
+    /// Parts with a table of specular occlusion. A pack has one table: all parts must have the same. May
+    /// be empty
+    std::vector<std::string> specular{};
+    std::string bricks{}; ///< part whose grid of bricks the pack gets; empty: no bricks
+    std::string probe{};  ///< part whose light probe the pack gets; empty: no probe
+};
+
+/// Write the pack of all sources, their scenes side by side: the records of each source follow the
+/// previous source's, with rebased indices. One source is the merge of one. Texels and pages are copied
+/// as they are stored, a piece at a time; equal images once. Groups of deformed meshes get the spheres of
+/// the skinning part.
 /// skipped         JSON objects for META, one for each error of a source that the pack lacks
-/// texture_budget  bytes that all textures may take on the GPU, for META; 0: no budget
-/// The pack is checked as a whole before it appears under `output`; on an error nothing appears.
-/// errors: those of reading the parts and of mergeMeta; meaning_reference where parts do not belong together,
-/// or tables differ; input_too_large where the tables grow past 32-bit indices; cannot_write; those of
-/// checkPack.
+/// texture_budget  bytes that all textures may take on the GPU, for META; 0: no budget The pack is
+/// checked as a whole before it appears under `output`; on an error nothing appears.
+/// errors: those of reading the parts and of mergeMeta; meaning_reference where parts do not belong
+/// together, or tables differ; input_too_large where the tables grow past 32-bit indices; cannot_write;
+/// those of checkPack.
 Status linkPack(std::span<const SourceParts> sources, const std::string& output,
-                std::span<const std::string> specular_parts = {}, const std::string& bricks_part = {},
-                std::span<const std::string> skipped = {}, uint64_t texture_budget = 0);
+                const PackParts& pack_parts = {}, std::span<const std::string> skipped = {},
+                uint64_t texture_budget = 0);
 
 } // namespace hearth::link

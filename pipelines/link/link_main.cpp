@@ -1,5 +1,5 @@
 // hearth-link: merges import, clusters, textures and skinning parts into a pack, with a table of specular
-// occlusion and a grid of bricks.
+// occlusion, a light probe and a grid of bricks.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
 #include "formats/base/program.h"
@@ -16,15 +16,15 @@ int program(int argc, char** argv)
     hearth::cli::CommandLine app("Merge the parts of one or more sources into a pack.", "hearth-link");
     std::vector<std::string> parts;
     std::string output;
-    std::vector<std::string> specular_parts;
-    std::string bricks_part;
+    hearth::link::PackParts pack_parts;
     std::vector<std::string> skipped;
     uint64_t texture_budget = 0;
     app.addOption("PARTS", parts, "import, clusters, textures and skinning part of each source").required();
     app.addOption("-o,--output", output, "pack to write").required();
-    app.addOption("--specular", specular_parts, "specular part, whose table the pack gets; once each")
+    app.addOption("--specular", pack_parts.specular, "specular part, whose table the pack gets; once each")
         .oneValueEach();
-    app.addOption("--bricks", bricks_part, "bricks part, whose grid the pack gets");
+    app.addOption("--bricks", pack_parts.bricks, "bricks part, whose grid the pack gets");
+    app.addOption("--probe", pack_parts.probe, "probe part, whose light probe the pack gets");
     app.addOption("--skipped", skipped,
                   "JSON with source, code, pointer and text: an error of a source that the pack lacks, which "
                   "hearth inspect shows; once for each")
@@ -50,7 +50,7 @@ int program(int argc, char** argv)
     for (size_t i = 0; i < parts.size(); i += 4)
         sources.push_back({parts[i], parts[i + 1], parts[i + 2], parts[i + 3]});
     const hearth::Status status =
-        hearth::link::linkPack(sources, output, specular_parts, bricks_part, skipped, texture_budget);
+        hearth::link::linkPack(sources, output, pack_parts, skipped, texture_budget);
     return status.ok() ? 0 : reportFailure(status.error());
 }
 

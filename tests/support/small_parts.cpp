@@ -89,6 +89,14 @@ void writeSpecularPart(const PackModel& pack, const std::string& path)
     writeFile(path, assemble(ContainerKind::part, chunks));
 }
 
+void writeProbePart(const PackModel& pack, const std::string& path)
+{
+    const ChunkImage chunks[] = {
+        plainChunk(kChunkProbes, 0, sizeof(ProbeRecord), std::as_bytes(std::span(pack.probes))),
+        plainChunk(kChunkProbeTexels, 0, sizeof(uint32_t), std::as_bytes(std::span(pack.probe_texels)))};
+    writeFile(path, assemble(ContainerKind::part, chunks));
+}
+
 void writeBricksPart(const PackModel& pack, const std::string& path)
 {
     std::vector<ChunkImage> chunks;

@@ -17,6 +17,9 @@ void writeParts(const PackModel& pack, const std::string& folder, const std::str
 /// Write a part with the specular tables of `pack`.
 void writeSpecularPart(const PackModel& pack, const std::string& path);
 
+/// Write a part with the light probes of `pack`.
+void writeProbePart(const PackModel& pack, const std::string& path);
+
 /// Write a part with the bricks of `pack`.
 void writeBricksPart(const PackModel& pack, const std::string& path);
 

@@ -47,7 +47,7 @@ protected:
         return pack;
     }
 
-    Status link() { return link::linkPack(sources, sandbox / "out.hearth", specular, bricks); }
+    Status link() { return link::linkPack(sources, sandbox / "out.hearth", {specular, bricks, probe}); }
 
     PackView linked()
     {
@@ -61,6 +61,7 @@ protected:
     std::vector<link::SourceParts> sources;
     std::vector<std::string> specular;
     std::string bricks;
+    std::string probe;
 };
 
 template <typename T>
@@ -294,6 +295,27 @@ TEST_F(LinkPack, refusesWrongBricksAndNone)
     EXPECT_EQ(wrong.error().issue, Issue::meaning_value);
     EXPECT_EQ(wrong.error().file, bricks);
     EXPECT_FALSE(sandbox.has("out.hearth"));
+}
+
+TEST_F(LinkPack, takesAProbe)
+{
+    addParts(smallPack(), "a");
+    EXPECT_TRUE(linked().probes().empty()) << "that of an import part is none";
+    PackModel model = smallPack();
+    probe = sandbox / "sky.part";
+    writeProbePart(model, probe);
+    const PackView pack = linked();
+    EXPECT_TRUE(sameBytes(pack.probes(), model.probes));
+    EXPECT_TRUE(sameBytes(pack.probeTexels(), model.probe_texels));
+
+    model.probes[0].window = -1;
+    writeProbePart(model, probe);
+    const Status wrong = link();
+    ASSERT_FALSE(wrong.ok());
+    EXPECT_EQ(wrong.error().issue, Issue::meaning_value);
+    EXPECT_EQ(wrong.error().file, probe);
+    writeSpecularPart(model, probe);
+    EXPECT_EQ(link().error().issue, Issue::chunk_missing);
 }
 
 TEST_F(LinkPack, refusesAWrongTableOfSpecularOcclusion)
