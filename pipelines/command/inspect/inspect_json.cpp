@@ -210,6 +210,18 @@ Json sceneJson(const PackView& pack, const PackSummary& summary)
                 {"normal_lambda", record.normal_lambda},
                 {"spacing", record.spacing == 0 ? "cosine" : "half-sine"}};
     };
+    const auto probe = [&](uint32_t i) -> Json
+    {
+        const ProbeRecord& record = pack.probes()[i];
+        return {{"face_size", record.face_size},
+                {"mips", record.mip_count},
+                {"bytes", record.texels.count * sizeof(uint32_t)},
+                {"irradiance", pointJson(record.irradiance)},
+                {"irradiance_luminance", record.irradiance_luminance},
+                {"window", record.window},
+                {"largest", record.largest},
+                {"error", record.error}};
+    };
     return {
         {"nodes", pack.nodes().size()},
         {"instances", pack.instances().size()},
@@ -224,7 +236,8 @@ Json sceneJson(const PackView& pack, const PackSummary& summary)
         {"skins", listJson(pack.skins().size(), skin)},
         {"extras", listJson(pack.extras().size(), [&](uint32_t i) { return extrasJson(pack, i); })},
         {"animations", listJson(pack.animations().size(), animation)},
-        {"specular_tables", listJson(pack.specularTables().size(), specular)}};
+        {"specular_tables", listJson(pack.specularTables().size(), specular)},
+        {"probes", listJson(pack.probes().size(), probe)}};
 }
 
 Json chunkJson(const ChunkEntry& entry)

@@ -89,6 +89,18 @@ std::string specularText(const PackView& pack)
     return text;
 }
 
+std::string probesText(const PackView& pack)
+{
+    std::string text;
+    for (const ProbeRecord& probe : pack.probes())
+        text += fmt::format(
+            "probe      {0} x {0} texels a face, {1} mips, {2}; mean irradiance ({3:.4g}, {4:.4g}, "
+            "{5:.4g}), greatest value {6:.4g} of its luminance\n",
+            probe.face_size, probe.mip_count, readableSize(probe.texels.count * sizeof(uint32_t)),
+            probe.irradiance.x, probe.irradiance.y, probe.irradiance.z, probe.largest);
+    return text;
+}
+
 /// Return how many meshes have baked visibility.
 std::string visibilityText(const PackView& pack)
 {
@@ -282,7 +294,8 @@ std::string chunksText(const PackView& pack)
 std::string inspectText(const PackView& pack, const PackSummary& summary)
 {
     std::string text = headText(pack, summary) + sceneText(pack, summary) + assetsText(pack) +
-                       visibilityText(pack) + specularText(pack) + bricksText(pack, summary.meta);
+                       visibilityText(pack) + specularText(pack) + probesText(pack) +
+                       bricksText(pack, summary.meta);
     for (size_t i = 0; i < summary.meshes.size(); ++i)
         text += meshText(summary.meshes[i], i);
     return text + layersText(pack) + imagesText(pack, summary) + extrasText(pack) +

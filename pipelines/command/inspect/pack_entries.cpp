@@ -375,6 +375,13 @@ void addLightEntries(std::vector<PackEntry>& entries, const PackView& pack)
         entries.push_back({"specular table", "", {}});
         addFieldProperties(entries.back().properties, pack, table);
     }
+    for (const ProbeRecord& probe : pack.probes())
+    {
+        entries.push_back({"probe", "", {}});
+        addFieldProperties(entries.back().properties, pack, probe);
+        const auto texels = pack.probeTexels().subspan(probe.texels.first, probe.texels.count);
+        entries.back().properties.push_back({"texels", contentHash(rawBytes(texels)), true});
+    }
     if (!pack.surroundings().empty())
         entries.push_back({"surroundings",
                            "",

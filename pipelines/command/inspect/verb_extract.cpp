@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/inspect/extract.h"
 #include "pipelines/command/inspect/extract_bricks.h"
+#include "pipelines/command/inspect/extract_probe.h"
 #include "pipelines/command/inspect/extract_specular.h"
 #include "pipelines/command/inspect/extract_texture.h"
 #include "pipelines/command/shell/verb_tools.h"
@@ -14,7 +15,8 @@ namespace hearth::command
 void addExtract(cli::CommandLine& app, VerbAction& run)
 {
     cli::CommandLine& verb = app.addSubcommand(
-        "extract", "Write a level of detail of a mesh as PLY, a texture as KTX2, or a table as CSV");
+        "extract",
+        "Write a level of detail of a mesh as PLY, a texture as KTX2, a light probe, or a table as CSV");
     struct Options
     {
         std::string file;
@@ -44,6 +46,13 @@ void addExtract(cli::CommandLine& app, VerbAction& run)
                        "instead of a mesh; a texture with its mips: its name, or its index if it has none")
             .excludes(mesh)
             .excludes(part);
+    const cli::Option probe =
+        verb.addFlag("--probe",
+                     "instead of a mesh; the light probe: .csv means and extremes of its mips, .exr "
+                     "and .png their faces side by side")
+            .excludes(mesh)
+            .excludes(part)
+            .excludes(texture);
     verb.addOption("--as", options->texel_format, "decode the texture, for programs that lack its format")
         .choices({"rgba8"})
         .needs(texture);
@@ -52,15 +61,23 @@ void addExtract(cli::CommandLine& app, VerbAction& run)
                                            "clip that poses the mesh: its name, or its index if it has none");
     animation.needs(mesh);
     verb.addOption("--time", options->time, "seconds from the start of the clip").needs(animation);
-    verb.addOption("-o,--output", options->output, "PLY, KTX2 or CSV file to write").required();
+    verb.addOption("-o,--output", options->output, "PLY, KTX2, CSV, EXR or PNG file to write").required();
     verb.setFooter("Example: hearth extract village.hearth --mesh 0 --error 0.01 -o cut.ply");
-    verb.setCheck([mesh, part, texture]
-                  { return mesh.count() + part.count() + texture.count() == 0 ? "--mesh is required" : ""; });
+    verb.setCheck(
+        [mesh, part, texture, probe] {
+            return mesh.count() + part.count() + texture.count() + probe.count() == 0 ? "--mesh is required"
+                                                                                      : "";
+        });
     verb.setAction(
-        [options, part, texture, animation, &run]
+        [options, part, texture, probe, animation, &run]
         {
-            run = [options, part, texture, animation]
+            run = [options, part, texture, probe, animation]
             {
+                if (probe.count() > 0)
+                {
+                    const Status status = extractProbe(options->file, options->output);
+                    return status.ok() ? 0 : printError(status.error());
+                }
                 if (texture.count() > 0)
                 {
                     options->texture.is_decoded = !options->texel_format.empty();

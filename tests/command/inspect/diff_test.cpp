@@ -130,6 +130,8 @@ TEST_F(Diff, eachChangeIsToldUnderItsName)
          }},
         {{"changed specular table : values"},
          [](PackModel& pack) { pack.specular_tables[0].values[5] ^= 1; }},
+        {{"changed probe : texels"}, [](PackModel& pack) { pack.probe_texels[5] ^= 1; }},
+        {{"changed probe : irradiance"}, [](PackModel& pack) { pack.probes[0].irradiance.x = 4; }},
         {{"changed surroundings : instances"},
          [](PackModel& pack) { pack.surroundings[0].visibility[3] = 0x3800; }},
         {{"changed surroundings : radiance transfers"},
