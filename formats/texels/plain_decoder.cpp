@@ -40,8 +40,8 @@ void widenRow(std::span<const std::byte> row, std::span<DecodedTexel> texels)
             texels[next][c] = widen(row[4 * next + c]);
 }
 
-/// Decode a texel with a shared exponent. Mantissas have fewer bits than those of half floats, and the largest
-/// value is less than the largest half.
+/// Decode a texel with a shared exponent. Mantissas have fewer bits than those of half floats, and the
+/// largest value is less than the largest half.
 DecodedTexel decodeHalves(uint32_t word)
 {
     const std::array<float, 3> color = decodeSharedExponent(word);

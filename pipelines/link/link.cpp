@@ -566,7 +566,7 @@ Result<std::optional<PackView>> openProbe(const std::string& path)
     return std::optional<PackView>(std::move(part));
 }
 
-/// What a pack has once, for all of its sources.
+/// Open parts of what a pack has once.
 struct OpenPackParts
 {
     std::vector<SpecularTableRecord> specular;

@@ -11,7 +11,8 @@ namespace hearth::texture_files
 namespace
 {
 
-/// Appends values to a file, in the byte order of the machine: formats are little-endian throughout the project.
+/// Appends values to a file, in the byte order of the machine: formats are little-endian throughout the
+/// project.
 class Bytes
 {
 public:

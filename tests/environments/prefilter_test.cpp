@@ -97,7 +97,7 @@ double measureError(const Environment& sky, const ProbeMip& mip, double roughnes
 }
 
 /// Mean of a mip over the sphere.
-Double3 meanOf(const ProbeMip& mip)
+Double3 averageMip(const ProbeMip& mip)
 {
     const Environment faces{Layout::cube, mip.side, mip.side, {}};
     Double3 sum;
@@ -195,7 +195,7 @@ TEST(Prefilter, keepsTheMeanOfASkyWithASun)
         // from mip 3 on texels are farther apart than lobes are wide: their mean is off where they are,
         // not their light
         const double tolerance = m == 0 ? 3e-3 : m < 3 ? 6e-3 : 0.025;
-        const Double3 got = meanOf(mips[m]);
+        const Double3 got = averageMip(mips[m]);
         EXPECT_NEAR(got.x / mean.x, 1, tolerance) << "mip " << m;
         EXPECT_NEAR(got.z / mean.z, 1, tolerance) << "mip " << m;
     }

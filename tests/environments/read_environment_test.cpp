@@ -178,6 +178,27 @@ TEST(DecodeEnvironment, namesTexelsThatAreNotFinite)
     expectRefused(floatCube(faces).file(), Issue::image_malformed, "texel (0, 2) is infinite");
 }
 
+TEST(DecodeEnvironment, refusesFilesThatAreCutOrDamaged)
+{
+    const Bytes header = floatCube({Float3{1, 2, 3}}).file();
+    const Bytes image = hdr("-Y 2 +X 4", Bytes(32, 100));
+    for (const Bytes& file : {header, image})
+    {
+        for (size_t size = 0; size < file.size(); ++size)
+            EXPECT_FALSE(decode(Bytes(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(size))).ok())
+                << size;
+        for (size_t at = 0; at < file.size(); ++at)
+            for (const unsigned change : {0x01u, 0x80u, 0xFFu})
+            {
+                Bytes damaged = file;
+                damaged[at] = static_cast<uint8_t>(damaged[at] ^ change);
+                const Result<Environment> sky = decode(damaged);
+                EXPECT_TRUE(!sky.ok() ||
+                            sky->texels.size() == size_t{sky->width} * sky->height * sky->panelCount());
+            }
+    }
+}
+
 TEST(DecodeEnvironment, leavesCubesToEnvironments)
 {
     const Bytes file = floatCube({}).file();
