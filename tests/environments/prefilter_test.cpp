@@ -3,6 +3,7 @@
 #include "cook/probes/harmonics.h"
 #include "cook/probes/prefilter.h"
 #include "tests/environments/environments.h"
+#include "tests/environments/lobe_sum.h"
 #include "tests/support/sanitized.h"
 
 #include <gtest/gtest.h>
@@ -21,8 +22,11 @@ namespace
 
 using environment::Environment;
 using environment::Layout;
+using test::averageMip;
 using test::makeEnvironment;
 using test::makeNoise;
+using test::sumLobe;
+using test::texelDirection;
 
 constexpr double kPi = std::numbers::pi;
 constexpr uint32_t kMips = 6;
@@ -32,45 +36,6 @@ constexpr Double3 kSun{0.48, 0.6, 0.64};
 std::vector<ProbeMip> filter(const Environment& sky, uint32_t side = 32, uint32_t rows = 32 * kTreeRowsOfSide)
 {
     return prefilter(buildRadianceTree(sky, 1, rows), side, kMips);
-}
-
-Double3 texelDirection(const ProbeMip& mip, size_t i)
-{
-    const auto face = static_cast<uint32_t>(i / mip.side / mip.side);
-    const double x = static_cast<double>(i % mip.side) + 0.5;
-    const double y = static_cast<double>(i / mip.side % mip.side) + 0.5;
-    return panelDirection(Layout::cube, face, {x / mip.side, y / mip.side});
-}
-
-/// Sum L k dw / sum k dw over `steps` x `steps` points of each texel, with k as the design has it: cos t
-/// times the square of alpha / (((1 + cos t) / 2) (alpha^2 - 1) + 1).
-Double3 sumLobe(const Environment& sky, uint32_t steps, Double3 axis, double roughness)
-{
-    const double alpha2 = roughness * roughness * roughness * roughness;
-    Double3 light;
-    double weights = 0;
-    const uint32_t rows = sky.height * steps, columns = sky.width * steps;
-    std::vector<Double3> equator;
-    for (uint32_t x = 0; x < columns; ++x)
-    {
-        const double longitude = kPi - 2 * kPi * (x + 0.5) / columns;
-        equator.push_back({std::sin(longitude), 0, std::cos(longitude)});
-    }
-    for (uint32_t y = 0; y < rows; ++y)
-    {
-        const double height = std::cos(kPi * (y + 0.5) / rows), sine = std::sin(kPi * (y + 0.5) / rows);
-        for (uint32_t x = 0; x < columns; ++x)
-        {
-            const double cosine = sine * dot(equator[x], axis) + height * axis.y;
-            if (cosine <= 0)
-                continue;
-            const double spread = (1 + cosine) / 2 * (alpha2 - 1) + 1;
-            const double weight = cosine * alpha2 / (spread * spread) * sine;
-            light = light + widen(sky.texels[sky.index(0, x / steps, y / steps)]) * weight;
-            weights += weight;
-        }
-    }
-    return light * (1 / weights);
 }
 
 /// Error of some texels of a mip against sums, as a share of the rms of the sums. Every second texel is
@@ -94,19 +59,6 @@ double measureError(const Environment& sky, const ProbeMip& mip, double roughnes
         size += dot(expected, expected);
     }
     return std::sqrt(error / size);
-}
-
-/// Mean of a mip over the sphere.
-Double3 averageMip(const ProbeMip& mip)
-{
-    const Environment faces{Layout::cube, mip.side, mip.side, {}};
-    Double3 sum;
-    for (size_t i = 0; i < mip.texels.size(); ++i)
-        sum =
-            sum + mip.texels[i] * panelSolidAngle(Layout::cube,
-                                                  faces.area(static_cast<uint32_t>(i % mip.side),
-                                                             static_cast<uint32_t>(i / mip.side % mip.side)));
-    return sum * (1 / (4 * kPi));
 }
 
 /// Sky with a sun of four degrees, a horizon, clouds and a dark ground.
