@@ -60,6 +60,8 @@ struct Cooker
     std::string_view needed_by{};
     /// true: it reads the source's files, its authored LODs, and files that these name
     bool reads_files = false;
+    /// Setting of the pack that names a file, which a cooker of the pack reads first; empty: none
+    std::string_view file_setting{};
     /// true: hearth-link reads its part; false: the part is for other cookers, or only for reports
     bool is_linked = true;
     /// cooker whose chunks its part contains too: where it runs, only its own part is linked; empty: none

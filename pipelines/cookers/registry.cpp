@@ -17,6 +17,7 @@ Cooker describeSkinning();
 Cooker describeNeighbours();
 Cooker describeVisibility();
 Cooker describeSpecular();
+Cooker describeProbe();
 Cooker describeBricks();
 Cooker describeLink();
 
@@ -29,10 +30,10 @@ using settings::Values;
 
 std::vector<Cooker> makeCookers()
 {
-    std::vector<Cooker> cookers{describeImport(),    describeClusters(),   describeTextures(),
-                                describeEstimates(), describeBudget(),     describeTexels(),
-                                describeSkinning(),  describeNeighbours(), describeVisibility(),
-                                describeSpecular(),  describeBricks(),     describeLink()};
+    std::vector<Cooker> cookers{
+        describeImport(), describeClusters(), describeTextures(),   describeEstimates(),  describeBudget(),
+        describeTexels(), describeSkinning(), describeNeighbours(), describeVisibility(), describeSpecular(),
+        describeProbe(),  describeBricks(),   describeLink()};
     for (Cooker& cooker : cookers)
         for (Setting& setting : cooker.settings)
             setting.scope = cooker.scope;

@@ -179,6 +179,10 @@ Status addCookerOfPack(const Cooker& cooker, Draft& draft)
 {
     Action action = makeAction(cooker, draft.settings.sources.size(), draft.settings.output);
     action.is_lister = cooker.lists != cookers::Lists::nothing;
+    const Values& values = draft.settings.values_of_pack;
+    if (const settings::Value* const file = settings::findValue(values, cooker.file_setting); file != nullptr)
+        addInput(action,
+                 {std::string(cooker.file_setting), kNoAction, settings::valueTexts(*file).front(), 0});
     for (const ActionIndices& actions : draft.actions_of_source)
         for (const std::string_view read : cooker.reads)
         {
@@ -187,9 +191,8 @@ Status addCookerOfPack(const Cooker& cooker, Draft& draft)
             addInput(action, cooker.reads_statistics ? sourceStatisticsInput(draft.graph, actions.at(read))
                                                      : sourcePartInput(draft.graph, actions.at(read)));
         }
-    HEARTH_ASSIGN_OR_RETURN(
-        draft.actions_of_pack[cooker.name],
-        finishAction(cooker, draft.settings.values_of_pack, std::move(action), draft.graph));
+    HEARTH_ASSIGN_OR_RETURN(draft.actions_of_pack[cooker.name],
+                            finishAction(cooker, values, std::move(action), draft.graph));
     return success();
 }
 

@@ -93,6 +93,24 @@ TEST(SkipSource, leavesTheOthersAsTheyAre)
         EXPECT_NE(input.action == kNoAction ? 0 : graph.actions[input.action].source, 1u);
 }
 
+TEST(CookGraph, readsTheFileOfASetting)
+{
+    CookSettings settings;
+    settings.sources = {"a.obj"};
+    settings.output = "out.hearth";
+    settings.values_of_pack = {{"bricks.mode", {"\"off\"", ""}},
+                               {"environment.file", {"\"skies/noon.hdr\"", ""}}};
+    settings.values_of_source.assign(1, {{"visibility.mode", {"\"off\"", ""}}});
+    const Graph graph = makeCookGraph(settings).value();
+    const std::vector<Words> commands = getCommands(graph);
+    EXPECT_EQ(commands.at(commands.size() - 2),
+              (Words{"bin/hearth-probe", "skies/noon.hdr", "-o", "{probe.part}"}));
+    EXPECT_EQ(commands.back(), (Words{"bin/hearth-link", "{import.part}", "{clusters.part}", "{texels.part}",
+                                      "{skinning.part}", "--probe", "{probe.part}", "-o", "{pack.hearth}"}));
+    settings.values_of_pack["environment.file"].text = "\"off\"";
+    EXPECT_EQ(makeCookGraph(settings)->actions.size(), graph.actions.size() - 1);
+}
+
 TEST(CookGraph, passesSettingsToEveryCooker)
 {
     const std::vector<Words> commands = getCommands(makeCookGraph(allSettings()).value());

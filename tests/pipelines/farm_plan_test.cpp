@@ -63,8 +63,9 @@ protected:
     {
         for (const char* name : {"a.obj", "b.obj", "c.obj", "wood.png"})
             folder.write(name, name);
-        for (const char* cooker : {"import", "textures", "estimates", "budget", "texels", "clusters",
-                                   "skinning", "neighbours", "visibility", "specular", "bricks", "link"})
+        for (const char* cooker :
+             {"import", "textures", "estimates", "budget", "texels", "clusters", "skinning", "neighbours",
+              "visibility", "specular", "probe", "bricks", "link"})
             folder.write(std::string("hearth-") + cooker, cooker, true);
     }
 

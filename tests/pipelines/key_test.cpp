@@ -63,7 +63,7 @@ protected:
 
     static void fill(const Sandbox& sandbox)
     {
-        for (const char* name : {"a.obj", "low.obj", "wood.png"})
+        for (const char* name : {"a.obj", "low.obj", "wood.png", "sky.hdr"})
             sandbox.write(name, name);
         for (const cookers::Cooker& cooker : cookers::allCookers())
             sandbox.write("hearth-" + std::string(cooker.name), std::string(cooker.name), true);
@@ -81,6 +81,7 @@ protected:
                 (cooker.scope == settings::Scope::source ? settings.values_of_source[0]
                                                          : settings.values_of_pack)[setting.key] =
                     chooseValue(setting, 0);
+        settings.values_of_pack["environment.file"].text = "\"" + sandbox / "sky.hdr" + "\"";
         return settings;
     }
 
@@ -220,6 +221,9 @@ TEST_F(Keys, flagsAddTheirCookers)
     other.values_of_pack["bricks.mode"].text = "\"off\"";
     EXPECT_EQ(changed(before, keys(other)), (std::set<std::string>{"bricks", "link"}));
     other = settings;
+    other.values_of_pack["environment.file"].text = "\"off\"";
+    EXPECT_EQ(changed(before, keys(other)), (std::set<std::string>{"probe", "link"}));
+    other = settings;
     other.values_of_pack.erase("textures.budget");
     EXPECT_EQ(changed(before, keys(other)), (std::set<std::string>{"estimates", "budget", "link"}));
 }
@@ -236,7 +240,11 @@ TEST_F(Keys, everyFileChangesThem)
     const auto before = keys(settings);
     folder.write("hearth-skinning", "another build", true);
     EXPECT_EQ(changed(before, keys(settings)), (std::set<std::string>{"skinning", "link"}));
+    folder.write("hearth-skinning", "skinning", true);
+    folder.write("sky.hdr", "another sky");
+    EXPECT_EQ(changed(before, keys(settings)), (std::set<std::string>{"probe", "link"}));
     fs::rename(folder / "wood.png", folder / "wool.png");
+    folder.write("sky.hdr", "sky.hdr");
     EXPECT_EQ(changed(before, keys(settings)), kOfSource) << "a file that is gone";
 }
 

@@ -253,7 +253,7 @@ TEST(Arguments, giveEachCookerItsOwnSettings)
         "visibility.power = 1\nvisibility.poses = ['Run', 'Walk']\n"
         "visibility.refine = true\nvisibility.occluders = 'mesh'\n"
         "bricks.mode = 'on'\nbricks.voxel_size = 0.5\n"
-        "bricks.memory = '1M'\n",
+        "bricks.memory = '1M'\nenvironment.file = 'sky.hdr'\n",
         "house.toml");
     ASSERT_TRUE(profile.ok()) << formatMessage(profile.error());
     const settings::Values& values = profile->values;
@@ -279,6 +279,7 @@ TEST(Arguments, omitUnsetSettings)
     EXPECT_EQ(wordsFor("textures", {}), Words());
     EXPECT_EQ(wordsFor("clusters", {}), (Words{"--no-discrete-lods", "--visibility"}));
     EXPECT_EQ(wordsFor("bricks", {}), Words{"--if-needed"});
+    EXPECT_FALSE(cookers::isEnabled(*cookers::findCooker("probe"), {}, {}));
     const settings::Values off{{"visibility.mode", {"\"off\"", ""}}, {"bricks.mode", {"\"off\"", ""}}};
     EXPECT_EQ(wordsFor("clusters", off), Words{"--no-discrete-lods"});
     const std::vector<settings::Values> plain_sources(1), sources_off{off};
