@@ -14,8 +14,7 @@ namespace hearth::probes
 
 /// Side of mip 0 of a probe: 524,160 bytes in all.
 inline constexpr uint32_t kProbeSide = 128;
-/// Mips of a probe: the last of kProbeSide has 4 x 4 texels a face. A lobe of roughness 1 is as wide as
-/// three of them.
+/// Mips of a probe: the last of kProbeSide has 4 x 4 texels a face.
 inline constexpr uint32_t kProbeMips = 6;
 
 struct Probe

@@ -41,6 +41,15 @@ Result<FloatImage> decode(const EncodedImage& source)
     return source.unsupported("an environment is an image of format HDR, EXR or KTX2");
 }
 
+/// Return "texel (3, 5)", of a cube "texel (3, 5) of face 2".
+std::string nameTexel(const FloatImage& image, size_t index)
+{
+    const size_t row = index / image.width;
+    const std::string name =
+        "texel (" + std::to_string(index % image.width) + ", " + std::to_string(row % image.height) + ")";
+    return image.faces == 1 ? name : name + " of face " + std::to_string(row / image.height);
+}
+
 /// Make radiance of what the file holds.
 Status cleanTexels(const EncodedImage& source, FloatImage& image)
 {
@@ -49,8 +58,7 @@ Status cleanTexels(const EncodedImage& source, FloatImage& image)
         {
             float& value = image.texels[i][c];
             if (!std::isfinite(value))
-                return source.malformed("texel (" + std::to_string(i % image.width) + ", " +
-                                        std::to_string(i / image.width) + ") is " +
+                return source.malformed(nameTexel(image, i) + " is " +
                                         (std::isnan(value) ? "not a number" : "infinite"));
             value = std::max(value, 0.0f);
         }

@@ -173,9 +173,9 @@ TEST(DecodeEnvironment, namesTexelsThatAreNotFinite)
 {
     std::array<Float3, 6> faces{};
     faces[2].y = std::numeric_limits<float>::quiet_NaN();
-    expectRefused(floatCube(faces).file(), Issue::image_malformed, "texel (0, 2) is not a number");
+    expectRefused(floatCube(faces).file(), Issue::image_malformed, "texel (0, 0) of face 2 is not a number");
     faces[2].y = std::numeric_limits<float>::infinity();
-    expectRefused(floatCube(faces).file(), Issue::image_malformed, "texel (0, 2) is infinite");
+    expectRefused(floatCube(faces).file(), Issue::image_malformed, "texel (0, 0) of face 2 is infinite");
 }
 
 TEST(DecodeEnvironment, refusesFilesThatAreCutOrDamaged)
