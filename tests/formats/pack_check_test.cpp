@@ -307,8 +307,7 @@ INSTANTIATE_TEST_SUITE_P(Deformation, MalformedPackTest, testing::ValuesIn(malfo
 INSTANTIATE_TEST_SUITE_P(Provenance, MalformedPackTest, testing::ValuesIn(malformedProvenance()), kCaseName);
 INSTANTIATE_TEST_SUITE_P(Specular, MalformedPackTest, testing::ValuesIn(malformedSpecularTables()),
                          kCaseName);
-INSTANTIATE_TEST_SUITE_P(Probes, MalformedPackTest, testing::ValuesIn(malformedProbes()),
-                         kCaseName);
+INSTANTIATE_TEST_SUITE_P(Probes, MalformedPackTest, testing::ValuesIn(malformedProbes()), kCaseName);
 INSTANTIATE_TEST_SUITE_P(Surroundings, MalformedPackTest, testing::ValuesIn(malformedSurroundings()),
                          kCaseName);
 INSTANTIATE_TEST_SUITE_P(Bricks, MalformedPackTest, testing::ValuesIn(malformedBricks()), kCaseName);
