@@ -18,8 +18,8 @@ namespace
 {
 
 // Few blocks tell which candidates are far from the target; more are encoded while there is doubt. Estimates
-// are off by 8.5 %, then by 4.5, 3.5 and 2.9. One that is wrongly too large costs bytes, one that is too small
-// an encoding, so a candidate is encoded only if its estimate holds the target with room for doubt.
+// are off by 8.5 %, then by 4.5, 3.5 and 2.9. A wrong one costs bytes if it is too large, and an encoding if
+// it is too small, so a candidate is encoded only if its estimate holds the target with room for doubt.
 constexpr struct
 {
     double low, high;
