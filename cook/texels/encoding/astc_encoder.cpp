@@ -59,10 +59,10 @@ astcenc_profile findProfile(TexelCoding coding)
     }
 }
 
-/// Return the decibels that a block with smooth cells must have. libastcenc is content with fewer the larger
-/// a block is, 40 dB at medium effort and 6x6, and leaves the seams that a finer format would have to avoid.
-/// Draft stays quick.
-float findSmoothLimit(Effort effort)
+/// Return the decibels that a block whose errors are seen must have. libastcenc is content with fewer the
+/// larger a block is, 40 dB at medium effort and 6x6, and leaves the seams that a finer format would have to
+/// avoid. Draft stays quick.
+float findSeenLimit(Effort effort)
 {
     constexpr float kLimits[] = {0, 50, 55};
     return kLimits[static_cast<uint32_t>(effort)];
@@ -209,15 +209,15 @@ std::vector<std::byte> encodeAstc(const Candidate& candidate, const StoredTexels
 {
     const TexelFormatTraits& traits = *candidate.traits;
     HEARTH_ASSERT(traits.family == TexelFamily::astc || traits.family == TexelFamily::astc_hdr);
-    const float smooth_limit = findSmoothLimit(effort);
-    std::vector<size_t> smooth, rough;
-    for (size_t block = 0; block < texels.is_smooth.size(); ++block)
-        (texels.is_smooth[block] != 0 && smooth_limit > 0 ? smooth : rough).push_back(block);
-    if (smooth.empty())
+    const float seen_limit = findSeenLimit(effort);
+    std::vector<size_t> seen, hidden;
+    for (size_t block = 0; block < texels.is_seen.size(); ++block)
+        (texels.is_seen[block] != 0 && seen_limit > 0 ? seen : hidden).push_back(block);
+    if (seen.empty())
         return encodeAll(candidate, texels, effort, 0);
-    if (rough.empty())
-        return encodeAll(candidate, texels, effort, smooth_limit);
-    std::vector<std::byte> blocks(texels.is_smooth.size() * traits.block_bytes);
+    if (hidden.empty())
+        return encodeAll(candidate, texels, effort, seen_limit);
+    std::vector<std::byte> blocks(texels.is_seen.size() * traits.block_bytes);
     const auto encodeSome = [&](std::span<const size_t> some, float search_limit)
     {
         const std::vector<std::byte> encoded =
@@ -226,8 +226,8 @@ std::vector<std::byte> encodeAstc(const Candidate& candidate, const StoredTexels
             std::ranges::copy(std::span(encoded).subspan(i * traits.block_bytes, traits.block_bytes),
                               blocks.begin() + static_cast<ptrdiff_t>(some[i] * traits.block_bytes));
     };
-    encodeSome(smooth, smooth_limit);
-    encodeSome(rough, 0);
+    encodeSome(seen, seen_limit);
+    encodeSome(hidden, 0);
     return blocks;
 }
 

@@ -69,15 +69,15 @@ void scaleAlpha(float scale, bool is_narrow, std::span<DecodedTexel> texels)
     }
 }
 
-/// Return, for each block of a stripe, whether it has smooth cells.
-std::vector<uint8_t> findSmoothBlocks(std::span<const SmoothCells> smooth, const TexelFormatTraits& traits,
-                                      const Stripe& stripe, uint32_t width)
+/// Return, for each block of a stripe, whether its errors are seen.
+std::vector<uint8_t> findSeenBlocks(std::span<const SmoothCells> smooth, const TexelFormatTraits& traits,
+                                    const Stripe& stripe, uint32_t width)
 {
-    std::vector<uint8_t> is_smooth;
+    std::vector<uint8_t> is_seen;
     for (uint32_t y = stripe.first_row; y < stripe.first_row + stripe.rows; y += traits.block_height)
         for (uint32_t x = 0; x < width; x += traits.block_width)
-            is_smooth.push_back(hasSmoothCells(smooth, stripe.mip, x, y, traits));
-    return is_smooth;
+            is_seen.push_back(showsErrors(smooth, stripe.mip, x, y, traits));
+    return is_seen;
 }
 
 std::vector<std::byte> encodeStripes(const PlainImage& image, std::span<const SmoothCells> smooth,
@@ -96,7 +96,7 @@ std::vector<std::byte> encodeStripes(const PlainImage& image, std::span<const Sm
                 scaleAlpha(alpha_scale, texelBytes(image.record.format) == 4, texels);
             StoredTexels stored = arrangeChannels(image, candidate, width, stripe.rows, texels);
             if (!smooth.empty())
-                stored.is_smooth = findSmoothBlocks(smooth, *candidate.traits, stripe, width);
+                stored.is_seen = findSeenBlocks(smooth, *candidate.traits, stripe, width);
             const std::vector<std::byte> bytes = encodeTexels(candidate, stored, effort);
             HEARTH_ASSERT(bytes.size() == stripe.bytes);
             std::ranges::copy(bytes, encoded.begin() + static_cast<ptrdiff_t>(stripe.first_byte));

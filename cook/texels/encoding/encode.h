@@ -23,9 +23,8 @@ struct StoredTexels
     uint32_t height = 0;
     std::vector<formats::DecodedTexel> texels{}; ///< rows from top to bottom
     formats::ImageRole role = formats::ImageRole::none;
-    bool is_narrow = true; ///< all values are multiples of 257: 8 bits
-    std::vector<uint8_t>
-        is_smooth{}; ///< [block]: it has smooth cells, where more is seen; or empty: none has
+    bool is_narrow = true;          ///< all values are multiples of 257: 8 bits
+    std::vector<uint8_t> is_seen{}; ///< [block]: its errors are, so it is searched longer; empty: none is
 };
 
 /// Return texels with the channels that a candidate stores.

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 namespace hearth::texels
 {
@@ -17,12 +16,12 @@ using namespace formats;
 namespace
 {
 
-constexpr uint64_t kMinSmoothPart = 2; // one of so many cells is smooth
-constexpr int kMaxSpan = 4 * 257;      // of 65535
-constexpr uint32_t kMinEdgeCells = 3;  // beside a cell; a spot, such as a star, hides nothing
+constexpr uint64_t kMinSmoothPart = 2;                           // one of so many cells is smooth
+constexpr int kMaxSmoothSpan = 4 * 257, kMaxSoftSpan = 24 * 257; // of 65535
+constexpr uint32_t kMinEdgeCells = 3; // beside a cell; a spot, such as a star, hides nothing
 
-/// Return whether no channel that is read spans more than kMaxSpan in a cell.
-bool isFlat(std::span<const DecodedTexel> texels, uint32_t width, Channels channels, uint64_t column)
+/// Return the most that a channel that is read spans in a cell.
+uint16_t findSpan(std::span<const DecodedTexel> texels, uint32_t width, Channels channels, uint64_t column)
 {
     // one range for each texel of a row of the cell: four times as fast as one for the cell
     std::array<DecodedTexel, kCellSide> low, high;
@@ -38,21 +37,19 @@ bool isFlat(std::span<const DecodedTexel> texels, uint32_t width, Channels chann
                 low[x][c] = std::min(low[x][c], value);
                 high[x][c] = std::max(high[x][c], value);
             }
+    int span = 0;
     for (uint32_t c = 0; c < 4; ++c)
-    {
-        const auto [lowest, highest] = std::pair{std::min({low[0][c], low[1][c], low[2][c], low[3][c]}),
-                                                 std::max({high[0][c], high[1][c], high[2][c], high[3][c]})};
-        if (has(channels, c) && highest - lowest > kMaxSpan)
-            return false;
-    }
-    return true;
+        if (has(channels, c))
+            span = std::max(span, std::max({high[0][c], high[1][c], high[2][c], high[3][c]}) -
+                                      std::min({low[0][c], low[1][c], low[2][c], low[3][c]}));
+    return static_cast<uint16_t>(span);
 }
 
-/// Return, for each cell of a mip, whether it is flat.
-std::vector<uint8_t> findFlatCells(const PlainImage& image, uint32_t mip, uint64_t columns, uint64_t rows)
+/// Return the span of each cell of a mip.
+std::vector<uint16_t> findSpans(const PlainImage& image, uint32_t mip, uint64_t columns, uint64_t rows)
 {
     const MipExtent extent = mipExtent(image.record, mip);
-    std::vector<uint8_t> is_flat(static_cast<size_t>(columns * rows));
+    std::vector<uint16_t> spans(static_cast<size_t>(columns * rows));
     tbb::parallel_for(uint64_t{0}, rows,
                       [&](uint64_t row)
                       {
@@ -60,10 +57,10 @@ std::vector<uint8_t> findFlatCells(const PlainImage& image, uint32_t mip, uint64
                           const std::vector<DecodedTexel> texels =
                               decodeRows(image, mip, y, std::min(kCellSide, extent.height - y));
                           for (uint64_t column = 0; column < columns; ++column)
-                              is_flat[row * columns + column] =
-                                  isFlat(texels, extent.width, image.channels, column);
+                              spans[row * columns + column] =
+                                  findSpan(texels, extent.width, image.channels, column);
                       });
-    return is_flat;
+    return spans;
 }
 
 } // namespace
@@ -75,8 +72,9 @@ SmoothCells::SmoothCells(const PlainImage& image, uint32_t mip)
     height_ = extent.height;
     columns_ = (uint64_t{extent.width} + kCellSide - 1) / kCellSide;
     const uint64_t rows = (uint64_t{extent.height} + kCellSide - 1) / kCellSide;
-    const std::vector<uint8_t> is_flat = findFlatCells(image, mip, columns_, rows);
-    is_smooth_.resize(is_flat.size());
+    const std::vector<uint16_t> spans = findSpans(image, mip, columns_, rows);
+    is_smooth_.resize(spans.size());
+    is_soft_.resize(spans.size());
     for (uint64_t row = 0; row < rows; ++row)
         for (uint64_t column = 0; column < columns_; ++column)
         {
@@ -85,21 +83,26 @@ SmoothCells::SmoothCells(const PlainImage& image, uint32_t mip)
             for (const uint64_t y : {row - std::min<uint64_t>(row, 1), row, std::min(row + 1, rows - 1)})
                 for (const uint64_t x :
                      {column - std::min<uint64_t>(column, 1), column, std::min(column + 1, columns_ - 1)})
-                    rough += is_flat[y * columns_ + x] == 0 ? 1u : 0u;
-            is_smooth_[row * columns_ + column] =
-                is_flat[row * columns_ + column] != 0 && rough < kMinEdgeCells;
+                    rough += spans[y * columns_ + x] > kMaxSmoothSpan ? 1u : 0u;
+            const uint64_t cell = row * columns_ + column;
+            is_smooth_[cell] = spans[cell] <= kMaxSmoothSpan && rough < kMinEdgeCells;
+            is_soft_[cell] = spans[cell] <= kMaxSoftSpan;
         }
 }
 
-bool SmoothCells::touch(uint64_t x, uint64_t y, uint64_t width, uint64_t height) const
+bool SmoothCells::showErrors(uint64_t x, uint64_t y, uint64_t width, uint64_t height) const
 {
     const uint64_t right = std::min<uint64_t>(x + width, width_),
                    bottom = std::min<uint64_t>(y + height, height_);
+    bool is_soft = true;
     for (uint64_t row = y / kCellSide; row * kCellSide < bottom; ++row)
         for (uint64_t column = x / kCellSide; column * kCellSide < right; ++column)
+        {
             if (is_smooth_[row * columns_ + column] != 0)
                 return true;
-    return false;
+            is_soft = is_soft && is_soft_[row * columns_ + column] != 0;
+        }
+    return is_soft;
 }
 
 uint64_t SmoothCells::countSmooth() const
@@ -133,11 +136,11 @@ std::vector<SmoothCells> findSmoothCells(const PlainImage& image)
     return smooth * kMinSmoothPart < all ? std::vector<SmoothCells>() : mips;
 }
 
-bool hasSmoothCells(std::span<const SmoothCells> smooth, uint32_t mip, uint64_t x, uint64_t y,
-                    const TexelFormatTraits& traits)
+bool showsErrors(std::span<const SmoothCells> smooth, uint32_t mip, uint64_t x, uint64_t y,
+                 const TexelFormatTraits& traits)
 {
     return !smooth.empty() &&
-           (mip >= smooth.size() || smooth[mip].touch(x, y, traits.block_width, traits.block_height));
+           (mip >= smooth.size() || smooth[mip].showErrors(x, y, traits.block_width, traits.block_height));
 }
 
 } // namespace hearth::texels

@@ -28,8 +28,9 @@ public:
         return is_smooth_[y / kCellSide * columns_ + x / kCellSide] != 0;
     }
 
-    /// True if any texel of a rectangle within the mip lies in a smooth cell.
-    bool touch(uint64_t x, uint64_t y, uint64_t width, uint64_t height) const;
+    /// True if errors are seen in a rectangle within the mip: it has a smooth cell, or no cell with an edge,
+    /// which spans more than 24 of 255 codes. Seams show in a soft cloud, although its cells are not smooth.
+    bool showErrors(uint64_t x, uint64_t y, uint64_t width, uint64_t height) const;
 
     uint64_t countSmooth() const;
     uint64_t count() const { return is_smooth_.size(); }
@@ -40,16 +41,18 @@ private:
     uint32_t width_, height_; ///< of the mip
     uint64_t columns_;
     std::vector<uint8_t> is_smooth_; ///< [row of cells * columns_ + column]
+    std::vector<uint8_t> is_soft_;   ///< the same: no edge in it
 };
 
 /// Return the cells of the mips that errors are measured on; none unless the image is a colour and half of
 /// its cells are smooth: a sky, a glow, a panel. Elsewhere texture hides what smooth areas would show.
 std::vector<SmoothCells> findSmoothCells(const PlainImage& image);
 
-/// Return whether a block has smooth cells. In mips coarser than those of smooth, all have.
+/// Return whether errors of a block are seen: where there are smooth cells, as SmoothCells::showErrors; in
+/// mips coarser than those of smooth, of all.
 /// smooth  as findSmoothCells
 /// x, y    the block's first texel
-bool hasSmoothCells(std::span<const SmoothCells> smooth, uint32_t mip, uint64_t x, uint64_t y,
-                    const formats::TexelFormatTraits& traits);
+bool showsErrors(std::span<const SmoothCells> smooth, uint32_t mip, uint64_t x, uint64_t y,
+                 const formats::TexelFormatTraits& traits);
 
 } // namespace hearth::texels

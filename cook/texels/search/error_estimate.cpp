@@ -87,16 +87,16 @@ Mosaic makeMosaic(const PlainImage& image, const TexelFormatTraits& traits, std:
     return mosaic;
 }
 
-/// Return, for each block of a mosaic, whether it has smooth cells in its mip.
-std::vector<uint8_t> findSmoothBlocks(std::span<const SmoothCells> smooth, const TexelFormatTraits& traits,
-                                      std::span<const MipBlock> blocks, const Mosaic& mosaic)
+/// Return, for each block of a mosaic, whether its errors are seen.
+std::vector<uint8_t> findSeenBlocks(std::span<const SmoothCells> smooth, const TexelFormatTraits& traits,
+                                    std::span<const MipBlock> blocks, const Mosaic& mosaic)
 {
     // what fills up the last row counts for nothing
-    std::vector<uint8_t> is_smooth(size_t{mosaic.width / traits.block_width} *
-                                   (mosaic.height / traits.block_height));
+    std::vector<uint8_t> is_seen(size_t{mosaic.width / traits.block_width} *
+                                 (mosaic.height / traits.block_height));
     for (size_t i = 0; i < blocks.size(); ++i)
-        is_smooth[i] = hasSmoothCells(smooth, blocks[i].mip, blocks[i].left, blocks[i].top, traits);
-    return is_smooth;
+        is_seen[i] = showsErrors(smooth, blocks[i].mip, blocks[i].left, blocks[i].top, traits);
+    return is_seen;
 }
 
 void addWeighted(const ErrorSum& block, double weight, std::array<double, 4>& sums)
@@ -118,7 +118,7 @@ void measureBlocks(const PlainImage& image, std::span<const SmoothCells> smooth,
     const Mosaic mosaic = makeMosaic(image, traits, blocks);
     StoredTexels arranged = arrangeChannels(image, candidate, mosaic.width, mosaic.height, mosaic.texels);
     if (!smooth.empty())
-        arranged.is_smooth = findSmoothBlocks(smooth, traits, blocks, mosaic);
+        arranged.is_seen = findSeenBlocks(smooth, traits, blocks, mosaic);
     std::vector<DecodedTexel> read =
         decodeMip(traits, mosaic.width, mosaic.height, encodeTexels(candidate, arranged, effort));
     readStored(candidate, read);
