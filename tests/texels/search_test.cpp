@@ -203,7 +203,7 @@ TEST(TexelSearch, onlyBlocksWhoseErrorsAreSeenAreSearchedLonger)
     const Candidate wide = findAstc8x8(plain);
     const std::vector<std::byte> longer = encodeImage(plain, smooth, wide, Effort::normal);
     const std::vector<std::byte> usual = encodeImage(plain, {}, wide, Effort::normal);
-    // an edge spans more than 24 of 255 codes within a cell of 4 x 4 texels
+    // an edge spans more than 48 of 255 codes within a cell of 4 x 4 texels
     const auto hasEdge = [&](uint32_t x, uint32_t y)
     {
         std::array<int, 3> low{255, 255, 255}, high{};
@@ -215,7 +215,7 @@ TEST(TexelSearch, onlyBlocksWhoseErrorsAreSeenAreSearchedLonger)
                     low[c] = std::min(low[c], code);
                     high[c] = std::max(high[c], code);
                 }
-        return high[0] - low[0] > 24 || high[1] - low[1] > 24 || high[2] - low[2] > 24;
+        return high[0] - low[0] > 48 || high[1] - low[1] > 48 || high[2] - low[2] > 48;
     };
     uint32_t changed = 0, hidden = 0;
     for (uint32_t block = 0; block * kBytes < longer.size(); ++block)

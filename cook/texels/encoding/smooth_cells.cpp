@@ -17,7 +17,7 @@ namespace
 {
 
 constexpr uint64_t kMinSmoothPart = 2;                           // one of so many cells is smooth
-constexpr int kMaxSmoothSpan = 4 * 257, kMaxSoftSpan = 24 * 257; // of 65535
+constexpr int kMaxSmoothSpan = 4 * 257, kMaxSoftSpan = 48 * 257; // of 65535
 constexpr uint32_t kMinEdgeCells = 3; // beside a cell; a spot, such as a star, hides nothing
 
 /// Return the most that a channel that is read spans in a cell.

@@ -29,7 +29,7 @@ public:
     }
 
     /// True if errors are seen in a rectangle within the mip: it has a smooth cell, or no cell with an edge,
-    /// which spans more than 24 of 255 codes. Seams show in a soft cloud, although its cells are not smooth.
+    /// which spans more than 48 of 255 codes. Seams show in a soft cloud, although its cells are not smooth.
     bool showErrors(uint64_t x, uint64_t y, uint64_t width, uint64_t height) const;
 
     uint64_t countSmooth() const;
