@@ -66,8 +66,8 @@ const std::vector<Layer>& layers()
          {"formats", "cook/texels/blocks", "cook/texels/bc", "cook/texels/etc2", "cook/texels/rules"}},
         {"cook/texels/search", {"formats", "cook/texels/encoding", "cook/texels/rules"}},
         {"cook/texels",
-         {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/texels/rules", "cook/texels/encoding",
-          "cook/texels/search"}},
+         {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/texels/rules",
+          "cook/texels/encoding", "cook/texels/search"}},
         {"cook/probes", {"formats", "cook/environment"}},
         {"cook/estimates", {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/texels"}},
 
