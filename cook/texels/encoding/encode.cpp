@@ -127,7 +127,7 @@ void addSmooth(const SmoothCells& smooth, uint32_t width, uint32_t first_row,
     for (size_t row = 0; row * width < plain.size(); ++row)
         for (uint32_t x = 0; x < width;)
         {
-            // runs of cells take a fifth of the time of single ones
+            // runs of cells are added at once, since a call for each costs more than the sums
             const bool is_smooth = smooth.contains(x, first_row + row);
             uint32_t end = x + kCellSide;
             while (end < width && smooth.contains(end, first_row + row) == is_smooth)

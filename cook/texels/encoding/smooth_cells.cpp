@@ -23,7 +23,7 @@ constexpr uint32_t kMinEdgeCells = 3; // beside a cell; a spot, such as a star, 
 /// Return the most that a channel that is read spans in a cell.
 uint16_t findSpan(std::span<const DecodedTexel> texels, uint32_t width, Channels channels, uint64_t column)
 {
-    // one range for each texel of a row of the cell: four times as fast as one for the cell
+    // one range for each texel of a row of the cell, so that processors take several at a time
     std::array<DecodedTexel, kCellSide> low, high;
     const uint64_t begin = column * kCellSide;
     for (uint64_t x = 0; x < kCellSide; ++x)

@@ -222,7 +222,7 @@ std::string extrasText(const PackView& pack)
 }
 
 /// Return the role of an encoded image, and its loss beside the target: ", color, 39.4 dB (target 39.0)".
-/// The loss of smooth areas is told only if it misses its target.
+/// Smooth areas are mentioned only where they miss their target.
 std::string encodingText(const ImageRecord& image)
 {
     const auto role = static_cast<ImageRole>(image.role);
