@@ -19,8 +19,8 @@ namespace
 
 // Few blocks tell which candidates are far from the target; more are encoded while there is doubt. Estimates
 // from 224 blocks are off by 6 % rms, and by less as the square root of the blocks grows. A wrong one costs
-// bytes if it is too large, and an encoding if it is too small, so a candidate is encoded only if its estimate
-// holds the target with room for doubt.
+// bytes if it is too large, and an encoding if it is too small. So a candidate is encoded only if its
+// estimate holds the target with room for doubt.
 constexpr struct
 {
     double low, high;
