@@ -101,6 +101,24 @@ Context makeContext(const ContextKey& key)
     return Context(context);
 }
 
+/// Fix the error below which libastcenc stops after its first trial of a block. libastcenc 4.2 keeps the one of
+/// its process's first block for all others, whatever their context (ARM-software/astc-encoder issue 537).
+/// Without this, an image's bytes would depend on the images that came before it.
+void fixFirstTrial()
+{
+    const Context context = makeContext({6, 6, ASTCENC_PRF_LDR, 0, ASTCENC_PRE_MEDIUM, 0});
+    uint8_t texels[6 * 6 * 4];
+    for (size_t index = 0; index < std::size(texels); ++index)
+        texels[index] = static_cast<uint8_t>(index * index); // a block of one colour has no trial
+    void* slice = texels;
+    astcenc_image image{6, 6, 1, ASTCENC_TYPE_U8, &slice};
+    constexpr astcenc_swizzle kSame{ASTCENC_SWZ_R, ASTCENC_SWZ_G, ASTCENC_SWZ_B, ASTCENC_SWZ_A};
+    uint8_t block[16];
+    const astcenc_error encoded =
+        astcenc_compress_image(context.get(), &image, &kSame, block, sizeof block, 0);
+    HEARTH_ASSERT(encoded == ASTCENC_SUCCESS);
+}
+
 // A context takes 5 to 18 ms to make and a few MiB. A thread keeps the last ones: the search goes through a
 // few footprints, image by image.
 constexpr size_t kMaxContexts = 16;
@@ -108,6 +126,8 @@ constexpr size_t kMaxContexts = 16;
 /// Return the context of the calling thread.
 astcenc_context* findContext(const ContextKey& key)
 {
+    static const bool is_fixed = (fixFirstTrial(), true);
+    HEARTH_ASSERT(is_fixed);
     thread_local std::list<std::pair<ContextKey, Context>> contexts; // the last used first
     const auto found = std::ranges::find(contexts, key, [](const auto& entry) { return entry.first; });
     if (found != contexts.end())
