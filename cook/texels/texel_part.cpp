@@ -7,9 +7,13 @@
 #include "formats/pack/image_data.h"
 #include "formats/pack/image_error.h"
 
+#include <tbb/parallel_pipeline.h>
+
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <numeric>
 
 namespace hearth::texels
@@ -19,6 +23,9 @@ using namespace formats;
 
 namespace
 {
+
+// Images in memory. A plain one of 16,384 x 16,384 texels has 1.4 GiB.
+constexpr size_t kMaxImagesAtOnce = 4;
 
 /// Store the target that chose the format. A rule or a budget that names one asks for no error.
 void describeTarget(const Request& request, ImageRecord& record)
@@ -67,6 +74,83 @@ std::vector<bool> selectPictured(std::span<const ImageRecord> images, const Texe
     return selected;
 }
 
+/// An image that is ready to be written.
+struct EncodedImage
+{
+    ImageResult result{};
+    std::vector<std::byte> texels{};
+    std::optional<PicturePair> picture{};
+};
+
+Result<EncodedImage> encodeLoaded(const LoadedImage& loaded, uint32_t index, const TexelOptions& options,
+                                  bool is_pictured)
+{
+    const PlainImage& image = loaded.image;
+    HEARTH_ASSIGN_OR_RETURN(const Request request,
+                            makeRequest(image, options, index, loaded.name, loaded.place));
+    Encoding encoding = encodeRequest(image, request, options.strict);
+    const ImageRecord record = describe(image, request, encoding);
+    EncodedImage encoded{.result = {.name = loaded.name,
+                                    .record = record,
+                                    .target = request.target,
+                                    .holds_target = holdsTargets(record),
+                                    .reason = request.reason,
+                                    .estimates = encoding.estimates,
+                                    .bytes = encoding.texels.size()}};
+    if (is_pictured)
+        encoded.picture = drawPictures(image, encoding);
+    encoded.texels = std::move(encoding.texels);
+    return encoded;
+}
+
+/// Load and encode all images, a few at a time, since the search works on one thread, and write them in their
+/// order. After the first error nothing is written.
+/// write  Status(EncodedImage)
+template <typename Write>
+Status encodeImages(const TexelSource& source, const TexelOptions& options, const Write& write)
+{
+    struct Work
+    {
+        uint32_t index;
+        Result<LoadedImage> loaded;
+    };
+    const std::vector<bool> pictured = selectPictured(source.images(), options);
+    std::atomic<bool> has_failed = false;
+    Status status = success();
+    uint32_t next = 0;
+    const auto load = [&](tbb::flow_control& flow) -> std::shared_ptr<Work>
+    {
+        if (next == source.images().size() || has_failed)
+        {
+            flow.stop();
+            return nullptr;
+        }
+        const uint32_t index = next++;
+        return std::make_shared<Work>(Work{index, source.load(index)});
+    };
+    const auto encode = [&](const std::shared_ptr<Work>& work)
+    {
+        return std::make_shared<Result<EncodedImage>>(
+            work->loaded.ok() ? encodeLoaded(*work->loaded, work->index, options, pictured[work->index])
+                              : Result<EncodedImage>(work->loaded.error()));
+    };
+    const auto finish = [&](const std::shared_ptr<Result<EncodedImage>>& encoded)
+    {
+        if (has_failed)
+            return;
+        status = encoded->ok() ? write(std::move(**encoded)) : Status(encoded->error());
+        has_failed = !status.ok();
+    };
+    tbb::parallel_pipeline(
+        kMaxImagesAtOnce,
+        tbb::make_filter<void, std::shared_ptr<Work>>(tbb::filter_mode::serial_in_order, load) &
+            tbb::make_filter<std::shared_ptr<Work>, std::shared_ptr<Result<EncodedImage>>>(
+                tbb::filter_mode::parallel, encode) &
+            tbb::make_filter<std::shared_ptr<Result<EncodedImage>>, void>(tbb::filter_mode::serial_in_order,
+                                                                          finish));
+    return status;
+}
+
 /// Add the size of each image in the written part.
 Status addStoredBytes(const std::string& path, std::span<ImageResult> results)
 {
@@ -86,29 +170,20 @@ Status cookTexels(const std::string& import_path, const std::string& textures_pa
     HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer,
                             ContainerWriter::create(output_path, ContainerKind::part));
     std::vector<ImageRecord> records;
-    const std::vector<bool> pictured = selectPictured(source.images(), options);
-    for (uint32_t i = 0; i < source.images().size(); ++i)
-    {
-        HEARTH_ASSIGN_OR_RETURN(const LoadedImage loaded, source.load(i));
-        const PlainImage& image = loaded.image;
-        HEARTH_ASSIGN_OR_RETURN(const Request request,
-                                makeRequest(image, options, i, loaded.name, loaded.place));
-        const Encoding encoding = encodeRequest(image, request, options.strict);
-        records.push_back(describe(image, request, encoding));
-        HEARTH_TRY(addImageData(writer, i, records.back(), encoding.texels));
-        results.images.push_back({.name = loaded.name,
-                                  .record = records.back(),
-                                  .target = request.target,
-                                  .holds_target = holdsTargets(records.back()),
-                                  .reason = request.reason,
-                                  .estimates = encoding.estimates,
-                                  .bytes = encoding.texels.size()});
-        if (pictured[i])
-        {
-            results.images.back().picture = results.pictures.size();
-            results.pictures.push_back(drawPictures(image, encoding));
-        }
-    }
+    HEARTH_TRY(encodeImages(source, options,
+                            [&](EncodedImage image) -> Status
+                            {
+                                const auto index = static_cast<uint32_t>(records.size());
+                                records.push_back(image.result.record);
+                                HEARTH_TRY(addImageData(writer, index, image.result.record, image.texels));
+                                results.images.push_back(std::move(image.result));
+                                if (image.picture)
+                                {
+                                    results.images.back().picture = results.pictures.size();
+                                    results.pictures.push_back(*std::move(image.picture));
+                                }
+                                return success();
+                            }));
     if (!source.changedStrings().empty())
         HEARTH_TRY(writer.addText(kChunkStrings, source.changedStrings()));
     HEARTH_TRY(writer.addRecords<ImageRecord>(kChunkImages, records));

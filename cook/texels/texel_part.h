@@ -37,9 +37,8 @@ struct TexelResults
 };
 
 /// Read the materials of the import part and the plain mips of the textures part, and write images of the
-/// same numbers and names in the formats of the target, with the materials that the textures part has. One
-/// image is in memory at a time. Same bytes for any
-/// number of threads.
+/// same numbers and names in the formats of the target, with the materials that the textures part has. Up
+/// to four images are in memory at a time. Same bytes for any number of threads.
 ///
 /// results  of each image
 /// errors: those of ContainerReader; meaning_reference where the parts are not of one source; texture_rule
