@@ -21,8 +21,8 @@ namespace
 using namespace test;
 using namespace formats;
 
-/// Encode an image of 200 x 50 texels in ASTC, in blocks of `width` x `width` texels. Its grain grows to the right, so
-/// that there are blocks about every limit at which libastcenc may be content.
+/// Encode an image of 200 x 50 texels in ASTC, in blocks of `width` x `width` texels. Its grain grows to the
+/// right, so that there are blocks about every limit at which libastcenc may be content.
 std::vector<std::byte> encodeBlocks(uint32_t width, Effort effort)
 {
     const ChannelValue waves = photographic(0), grain = photographic(1);

@@ -101,9 +101,9 @@ Context makeContext(const ContextKey& key)
     return Context(context);
 }
 
-/// Fix the error below which libastcenc stops after its first trial of a block. libastcenc 4.2 keeps the one of
-/// its process's first block for all others, whatever their context (ARM-software/astc-encoder issue 537).
-/// Without this, an image's bytes would depend on the images that came before it.
+/// Fix the error below which libastcenc stops after its first trial of a block. libastcenc 4.2 keeps the one
+/// of its process's first block for all others, whatever their context (ARM-software/astc-encoder issue
+/// 537). Without this, an image's bytes would depend on the images that came before it.
 void fixFirstTrial()
 {
     const Context context = makeContext({6, 6, ASTCENC_PRF_LDR, 0, ASTCENC_PRE_MEDIUM, 0});
