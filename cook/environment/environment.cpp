@@ -3,6 +3,7 @@
 
 #include "formats/base/assert.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -96,6 +97,20 @@ CubePlace findCubePlace(Double3 direction)
     }
     HEARTH_ASSERT(depth > 0);
     return {face, {(a / depth + 1) / 2, (b / depth + 1) / 2}};
+}
+
+size_t findTexel(const Environment& environment, Double3 direction)
+{
+    CubePlace place{0, {}};
+    if (environment.layout == Layout::cube)
+        place = findCubePlace(direction);
+    else
+        place.point = {0.5 - std::atan2(direction.x, direction.z) / (2 * kPi),
+                       std::atan2(std::hypot(direction.x, direction.z), direction.y) / kPi};
+    const auto texel = [](double at, uint32_t count)
+    { return static_cast<uint32_t>(std::clamp(at * count, 0.0, count - 1.0)); };
+    return environment.index(place.panel, texel(place.point.u, environment.width),
+                             texel(place.point.v, environment.height));
 }
 
 } // namespace hearth::environment

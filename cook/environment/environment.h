@@ -58,6 +58,10 @@ Double3 panelDirection(Layout layout, uint32_t panel, PanelPoint point);
 /// Return the exact solid angle of a part of a panel, in steradians.
 double panelSolidAngle(Layout layout, const PanelArea& area);
 
+/// Return the index of the texel that a direction is in.
+/// direction  of any length but 0
+size_t findTexel(const Environment& environment, Double3 direction);
+
 /// Place of a direction in a cube.
 struct CubePlace
 {

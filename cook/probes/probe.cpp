@@ -3,6 +3,7 @@
 
 #include "cook/probes/harmonics.h"
 #include "cook/probes/prefilter.h"
+#include "cook/probes/sharp_mips.h"
 #include "formats/records/texel_format.h"
 #include "formats/scene/scene_lighting.h"
 #include "formats/texels/shared_exponent.h"
@@ -60,7 +61,8 @@ void packMip(const ProbeMip& mip, std::vector<uint32_t>& texels, StorageError& s
 
 } // namespace
 
-Result<Probe> cookProbe(const Environment& environment, const std::string& name, uint32_t side)
+Result<Probe> cookProbe(const Environment& environment, const std::string& name, uint32_t side,
+                        uint32_t max_side)
 {
     HEARTH_ASSERT(std::has_single_bit(side) && side >= 32 && side <= 1024);
     const Harmonics harmonics = projectRadiance(environment);
@@ -78,7 +80,11 @@ Result<Probe> cookProbe(const Environment& environment, const std::string& name,
 
     const std::vector<ProbeMip> mips =
         prefilter(buildRadianceTree(environment, scale, kTreeRowsOfSide * side), side, kProbeMips);
+    record.sharp_mips = countSharpMips(environment, side, max_side);
     StorageError sums;
+    for (uint32_t mip = record.sharp_mips; mip > 0; --mip)
+        packMip(averageSharply(environment, scale, side << mip), probe.texels, sums);
+    sums = {};
     for (const ProbeMip& mip : mips)
         packMip(mip, probe.texels, sums);
     double largest = 0;

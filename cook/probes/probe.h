@@ -27,9 +27,10 @@ struct Probe
 /// environment that is twice as bright has the same texels and harmonics. The same for any number of
 /// threads.
 /// name  of the environment's file, in messages
-/// side  of mip 0: a power of two from 32 to 1024 (asserted)
+/// side      of the mip of roughness 0: a power of two from 32 to 1024 (asserted)
+/// max_side  of the sharp mips above it, which go no finer than the environment; `side` or less: none
 /// errors: image_unsupported for an environment without light, or brighter than floats are
 Result<Probe> cookProbe(const environment::Environment& environment, const std::string& name,
-                        uint32_t side = kProbeSide);
+                        uint32_t side = kProbeSide, uint32_t max_side = 0);
 
 } // namespace hearth::probes

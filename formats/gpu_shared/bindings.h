@@ -35,7 +35,7 @@ HEARTH_CONSTANT uint kSceneShadows = 9; ///< scenes with shadows only; so is the
 HEARTH_CONSTANT uint kSceneShadowMaps = 10;
 HEARTH_CONSTANT uint kSceneSpecularTable = 11; ///< one white texel in scenes without a table
 HEARTH_CONSTANT uint kSceneReflectance = 12;   ///< tables of reflectance.h and, below it, of sheen.h
-HEARTH_CONSTANT uint kSceneSkyTable = 13;      ///< table of sky.h
+HEARTH_CONSTANT uint kSceneSkyTable = 13;      ///< table of sky.h; kSceneSkyCube follows below
 
 /// Bindings of a material.
 HEARTH_CONSTANT uint kMaterialBlock = 14;
@@ -59,6 +59,9 @@ HEARTH_CONSTANT uint kAttachmentDepth = 29;
 /// input attachments of renderers with such methods.
 HEARTH_CONSTANT uint kAttachmentLight = 30;
 HEARTH_CONSTANT uint kLightImages = 3;
+
+/// Cube map of the sky's probe, in the scene; one black texel a face in scenes without one.
+HEARTH_CONSTANT uint kSceneSkyCube = 33;
 
 /// Index of the visibility buffer among the input attachments of the subpasses that read it.
 HEARTH_CONSTANT uint kInputVisibility = 0;

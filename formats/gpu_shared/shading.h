@@ -91,15 +91,15 @@ struct Light
     uint passed3;
 };
 
-/// Head of the buffer of lights. Behind it lie the lights, Light[capacity], rows of surroundings, and the
-/// lists of the frame: LightListCounts, numbers of the lights of the frame, cells and indices
-/// (light_grid.h).
+/// Head of the buffer of lights. Behind it lie the lights, Light[capacity], rows of the sky's image and of
+/// surroundings, and the lists of the frame: LightListCounts, numbers of the lights of the frame, cells and
+/// indices (light_grid.h).
 struct Lighting
 {
-    Float3 sky_zenith; ///< radiance
+    Float3 sky_zenith; ///< radiance; with an image of the sky the factor of its texels
     uint light_count;
-    Float3 sky_horizon;
-    float exposure; ///< of emission; the intensities of lights have it already
+    Float3 sky_horizon; ///< with an image: x is the number of the cube map's sharp mips
+    float exposure;     ///< of emission; the intensities of lights have it already
     Float3 sky_ground;
     uint surroundings_row; ///< row of 16 bytes of the buffer: first instance, or kNoSurroundings
     uint transfers_row;    ///< row of the first radiance transfer
@@ -109,7 +109,7 @@ struct Lighting
     uint index_words;   ///< room for indices
     uint list_count;    ///< lists of the frame; of slots, the room for their words
     uint first_in_view; ///< row of 64 bytes: CellLight of the first ranged light of the frame
-    uint reserved;
+    uint sky_image_row; ///< row of 16 bytes of the buffer: kSkyImageRows (sky.h), or kNoSkyImage
     LightGrid grid;
     LightCascade cascades[kLightCascades];
     LightCascade tiles; ///< of the image: one slab, each tile with depths of its own

@@ -1,5 +1,6 @@
-// The sky that lights every scene, a smooth gradient from ground over horizon to zenith: its radiance from a
-// direction, and its mean over a cone of directions through a table. One source for C++ and GLSL.
+// The sky that lights every scene: a smooth gradient from ground over horizon to zenith, or an image. Its
+// radiance from a direction, and the gradient's mean over a cone of directions through a table. One source for
+// C++ and GLSL.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_SKY_H
 #define HEARTH_SHARED_SKY_H
@@ -7,11 +8,18 @@
 #include "formats/gpu_shared/language.h"
 #include "formats/gpu_shared/precision.h"
 
-// The radiance depends on the height of the direction alone, the sine of its elevation. It is
+#ifdef __cplusplus
+#include <array>
+#endif
+
+// The radiance of the gradient depends on the height of the direction alone, the sine of its elevation. It is
 //     ground + (horizon - ground) above + (zenith - horizon) above high,
-// and the table has the means of both products over cones (formats/scene/sky_table.h). Everything that the
-// sky lights reads one of two functions, skyRadiance here or skyConeRadiance of sky.glsl: a sky from an image
-// would replace these two, with prefiltered images in place of the table.
+// and the table has the means of both products over cones (formats/scene/sky_table.h).
+//
+// The image of a sky is its probe (formats/records/probe.h). Background and reflections sample the probe's
+// cube map, the diffuse part takes its harmonics, and rays through bricks read a small cube of texels here:
+// they are few, so a blurred sky gives them less noise. Everything that the sky lights reads skyRadiance here,
+// or skyDiffuse or skyMirror of sky.glsl.
 
 HEARTH_SHARED_BEGIN
 
@@ -19,13 +27,90 @@ HEARTH_SHARED_BEGIN
 HEARTH_CONSTANT uint kSkyTableHeights = 128;
 HEARTH_CONSTANT uint kSkyTableAngles = 16;
 
+/// Texels of the image of a sky that rays read: panels of this side, in the order and orientation of a cube
+/// map, in RGB9E5.
+HEARTH_CONSTANT uint kSkyImageSide = 16;
+HEARTH_CONSTANT uint kSkyImageTexels = 6 * 16 * 16;
+HEARTH_CONSTANT uint kSkyHarmonics = 9; ///< degrees 0 to 2
+/// Rows of 16 bytes that a sky image takes in the buffer of lights: texels, then harmonics of radiance.
+HEARTH_CONSTANT uint kSkyImageRows = 6 * 16 * 16 / 4 + 9;
+HEARTH_CONSTANT uint kNoSkyImage = 0; ///< in place of the first row: the sky is the gradient
+
+#ifdef __cplusplus
+/// Image of a sky (formats/scene/sky_image.h).
+struct SkyImage
+{
+    std::array<uint32_t, kSkyImageTexels> texels; ///< radiance in RGB9E5; Sky::zenith is their factor
+    std::array<Float3, kSkyHarmonics> harmonics;  ///< of radiance, as shared::evaluateHarmonics
+};
+#endif
+
 /// Colours of the sky, radiance, as in shared::Lighting.
 struct Sky
 {
-    Float3 zenith;
-    Float3 horizon;
+    Float3 zenith;  ///< with an image: the factor of its texels
+    Float3 horizon; ///< with an image: x is the number of the cube map's sharp mips
     Float3 ground;
+#ifdef __cplusplus
+    const SkyImage* image = nullptr; ///< none: the gradient
+#else
+    uint image; ///< first row, or kNoSkyImage
+#endif
 };
+
+#ifdef __cplusplus
+inline bool hasSkyImage(const Sky& sky)
+{
+    return sky.image != nullptr;
+}
+inline uint skyImageTexel(const Sky& sky, uint index)
+{
+    return sky.image->texels[index];
+}
+inline Float3 skyImageHarmonic(const Sky& sky, uint index)
+{
+    return sky.image->harmonics[index];
+}
+#else
+bool hasSkyImage(Sky sky)
+{
+    return sky.image != kNoSkyImage;
+}
+// by scene/sky_rows.glsl
+uint skyImageTexel(Sky sky, uint index);
+vec3 skyImageHarmonic(Sky sky, uint index);
+#endif
+
+/// Return the colour of a texel of RGB9E5.
+HEARTH_FUNCTION Float3 sharedExponentColor(uint word)
+{
+    // 2^(exponent - 15 - 9)
+    float scale = floatFromBits(((word >> 27) + 103u) << 23);
+    return Float3(float(word & 511u), float(word >> 9 & 511u), float(word >> 18 & 511u)) * scale;
+}
+
+/// Return the index of the texel of a sky image that a direction is in.
+/// direction  of any length but 0
+/// source     Vulkan 1.3, section "Cube Map Face Selection"
+HEARTH_FUNCTION uint skyImageIndex(Float3 direction)
+{
+    float x = abs(direction.x);
+    float y = abs(direction.y);
+    float z = abs(direction.z);
+    bool is_z = z >= x && z >= y;
+    bool is_y = !is_z && y >= x;
+    float major = is_z ? direction.z : (is_y ? direction.y : direction.x);
+    uint panel = (is_z ? 4u : (is_y ? 2u : 0u)) + (major < 0.0f ? 1u : 0u);
+    float across = is_z ? (major < 0.0f ? -direction.x : direction.x)
+                        : (is_y ? direction.x : (major < 0.0f ? direction.z : -direction.z));
+    float down = is_y ? (major < 0.0f ? -direction.z : direction.z) : -direction.y;
+    float scale = 0.5f * float(kSkyImageSide) / abs(major);
+    float half_side = 0.5f * float(kSkyImageSide);
+    float last = float(kSkyImageSide) - 1.0f;
+    uint column = uint(min(max(across * scale + half_side, 0.0f), last));
+    uint row = uint(min(max(down * scale + half_side, 0.0f), last));
+    return (panel * kSkyImageSide + row) * kSkyImageSide + column;
+}
 
 HEARTH_FUNCTION float skySmoothstep(float from, float to, float x)
 {
@@ -49,11 +134,41 @@ HEARTH_FUNCTION float skyHigh(float height)
 /// direction  unit
 HEARTH_FUNCTION Float3 skyRadiance(HEARTH_IN(Sky) sky, Float3 direction)
 {
+    if (hasSkyImage(sky))
+        return sky.zenith * sharedExponentColor(skyImageTexel(sky, skyImageIndex(direction)));
     Float3 above = sky.horizon + (sky.zenith - sky.horizon) * skyHigh(direction.y);
     return sky.ground + (above - sky.ground) * skyAbove(direction.y);
 }
 
-/// Return the mean radiance over a cone.
+/// Return the mean radiance of an image over a cone by its harmonics, at least 0: a cone keeps (1 + c) / 2 of
+/// degree 1 and c (1 + c) / 2 of degree 2. For wide cones, of which the diffuse part is one.
+/// axis            as LightCone
+/// cos_half_angle  c, [0, 1]
+/// source          P.-P. Sloan, "Stupid spherical harmonics (SH) tricks", 2008, "Cone light source"
+HEARTH_FUNCTION Half3 skyImageConeRadiance(HEARTH_IN(Sky) sky, Half3 axis, Half cos_half_angle)
+{
+    Half x = axis.x;
+    Half y = axis.y;
+    Half z = axis.z;
+    Half3 constant = skyImageHarmonic(sky, 0u);
+    Half3 linear_y = skyImageHarmonic(sky, 1u);
+    Half3 linear_x = skyImageHarmonic(sky, 2u);
+    Half3 linear_z = skyImageHarmonic(sky, 3u);
+    Half3 square_y = skyImageHarmonic(sky, 4u);
+    Half3 product_xy = skyImageHarmonic(sky, 5u);
+    Half3 product_yz = skyImageHarmonic(sky, 6u);
+    Half3 product_xz = skyImageHarmonic(sky, 7u);
+    Half3 difference = skyImageHarmonic(sky, 8u);
+    Half3 linear = linear_y * y + linear_x * x + linear_z * z;
+    Half3 quadratic = square_y * (0.28867513f * (2.0f * y * y - x * x - z * z)) + product_xy * (x * y) +
+                      product_yz * (y * z) + product_xz * (x * z) + difference * (0.5f * (x * x - z * z));
+    Half first = 0.5f * (1.0f + cos_half_angle);
+    Half3 mean = constant * 0.28209479f + linear * (0.48860251f * first) +
+                 quadratic * (1.09254843f * first * cos_half_angle);
+    return Float3(max(mean.x, 0.0f), max(mean.y, 0.0f), max(mean.z, 0.0f));
+}
+
+/// Return the mean radiance of the gradient over a cone.
 /// means  of skyAbove (x) and skyAbove * skyHigh (y), as the table has them
 HEARTH_FUNCTION Half3 skyMeanRadiance(HEARTH_IN(Sky) sky, Half2 means)
 {

@@ -13,6 +13,7 @@ namespace
 constexpr const char* kProbeKind = "probe";
 // Largest side of a face: larger images are no use for reflections, and sums of texels fit 32 bits.
 constexpr uint32_t kMaxProbeSide = 4096;
+constexpr uint32_t kMaxSharpMips = 8;
 
 Status checkProbe(const PackView& view, size_t i, const ProbeRecord& probe)
 {
@@ -22,6 +23,8 @@ Status checkProbe(const PackView& view, size_t i, const ProbeRecord& probe)
         return wrong("faces of " + std::to_string(probe.face_size) + " texels");
     if (probe.mip_count < 2 || probe.mip_count > static_cast<uint32_t>(std::bit_width(probe.face_size)))
         return wrong(std::to_string(probe.mip_count) + " mips");
+    if (probe.sharp_mips > kMaxSharpMips || finestProbeSide(probe) > kMaxProbeSide)
+        return wrong(std::to_string(probe.sharp_mips) + " sharp mips");
     if (probe.format != static_cast<uint32_t>(TexelFormat::rgb9e5_float))
         return wrong("texel format " + std::to_string(probe.format));
     const Float3 irradiance = probe.irradiance;
@@ -32,9 +35,10 @@ Status checkProbe(const PackView& view, size_t i, const ProbeRecord& probe)
         return wrong("a harmonic is not finite");
     if (!isNonNegative(probe.window) || !isNonNegative(probe.largest) || !isNonNegative(probe.error))
         return wrong("its window, largest value or error is not possible");
-    if (probe.flags != 0 || !reservedZero(probe.reserved))
+    if ((probe.flags & ~kProbeIsSky) != 0 || !reservedZero(probe.reserved))
         return makeError(view, Issue::meaning_padding, kProbeKind, i, "a reserved field is not 0");
-    if (const uint64_t count = probeTexelCount(probe.face_size, probe.mip_count); probe.texels.count != count)
+    if (const uint64_t count = cubeTexelCount(finestProbeSide(probe), countProbeMips(probe));
+        probe.texels.count != count)
         return makeError(view, Issue::meaning_range, kProbeKind, i,
                          std::to_string(probe.texels.count) + " texels, its mips have " +
                              std::to_string(count));
@@ -46,9 +50,13 @@ Status checkProbe(const PackView& view, size_t i, const ProbeRecord& probe)
 Status checkProbeTables(const PackView& view)
 {
     RangeCursor texels(view, kProbeKind, "probe texels", view.probeTexels().size());
+    uint32_t skies = 0;
     for (size_t i = 0; i < view.probes().size(); ++i)
     {
         HEARTH_TRY(checkProbe(view, i, view.probes()[i]));
+        skies += view.probes()[i].flags & kProbeIsSky;
+        if (skies > 1)
+            return makeError(view, Issue::meaning_value, kProbeKind, i, "it is a second sky");
         HEARTH_TRY(texels.take(i, view.probes()[i].texels));
     }
     return texels.finish();

@@ -16,6 +16,10 @@ inline constexpr uint32_t kChunkProbeTexels = fourCC("PRTX"); ///< u32[]: texels
 /// Numbers of ProbeRecord::harmonics: three colours for each of nine harmonics.
 inline constexpr uint32_t kProbeHarmonicValues = 27;
 
+/// Bit of ProbeRecord::flags: the environment is the scene's sky, which the camera and all light cookers see.
+/// At most one probe has it.
+inline constexpr uint32_t kProbeIsSky = 1;
+
 /// Light of distant surroundings, divided by the luminance of their mean irradiance.
 struct ProbeRecord
 {
@@ -30,10 +34,11 @@ struct ProbeRecord
     float largest;
     float error;
     Range texels;
-    uint32_t reserved[8];
+    uint32_t sharp_mips;
+    uint32_t reserved[7];
 };
 
-/// Return the roughness of mip 0, 1, ... mip_count - 1, from 0 to 1; at least two mips. A roughness r is
+/// Return the roughness of mip 0, 1, ... mip_count - 1 without the sharp ones, from 0 to 1; at least two mips. A roughness r is
 /// found at lod (mip_count - 1) r (2 - r).
 inline double probeMipRoughness(uint32_t mip, uint32_t mip_count)
 {
@@ -41,7 +46,7 @@ inline double probeMipRoughness(uint32_t mip, uint32_t mip_count)
 }
 
 /// Return the number of texels of all mips of a cube.
-constexpr uint64_t probeTexelCount(uint32_t face_size, uint32_t mip_count)
+constexpr uint64_t cubeTexelCount(uint32_t face_size, uint32_t mip_count)
 {
     uint64_t count = 0;
     for (uint32_t mip = 0; mip < mip_count; ++mip)
@@ -49,14 +54,26 @@ constexpr uint64_t probeTexelCount(uint32_t face_size, uint32_t mip_count)
     return count;
 }
 
+/// Return the texels of an edge of the finest mip.
+constexpr uint32_t finestProbeSide(const ProbeRecord& probe)
+{
+    return probe.face_size << probe.sharp_mips;
+}
+
+/// Return the number of all mips.
+constexpr uint32_t countProbeMips(const ProbeRecord& probe)
+{
+    return probe.sharp_mips + probe.mip_count;
+}
+
 } // namespace hearth::formats
 
 HEARTH_RECORD(hearth::formats::ProbeRecord, 192,
               HEARTH_FIELD(hearth::formats::ProbeRecord, face_size,
-                           "texels of an edge of mip 0, a power of two"),
-              HEARTH_FIELD(hearth::formats::ProbeRecord, mip_count, "2 or more"),
+                           "texels of an edge of the mip of roughness 0, a power of two"),
+              HEARTH_FIELD(hearth::formats::ProbeRecord, mip_count, "from roughness 0 to 1; 2 or more"),
               HEARTH_FIELD(hearth::formats::ProbeRecord, format, "a TexelFormat: rgb9e5"),
-              HEARTH_FIELD(hearth::formats::ProbeRecord, flags, "0"),
+              HEARTH_FIELD(hearth::formats::ProbeRecord, flags, "bit 0: the sky of the scene"),
               HEARTH_FIELD(hearth::formats::ProbeRecord, irradiance,
                            "mean irradiance E_probe of the environment: pi times its mean radiance"),
               HEARTH_FIELD(hearth::formats::ProbeRecord, irradiance_luminance, "Y(E_probe), above 0"),
@@ -65,8 +82,11 @@ HEARTH_RECORD(hearth::formats::ProbeRecord, 192,
               HEARTH_FIELD(hearth::formats::ProbeRecord, window,
                            "degree l was attenuated by 1 / (1 + window (l (l + 1))^2)"),
               HEARTH_FIELD(hearth::formats::ProbeRecord, largest,
-                           "largest channel of mip 0 before it was stored; above 65408 it was cut"),
+                           "largest channel at roughness 0 before it was stored; above 65408 it was cut"),
               HEARTH_FIELD(hearth::formats::ProbeRecord, error,
-                           "rms error of all stored texels by solid angle, as a share of their rms"),
-              HEARTH_FIELD(hearth::formats::ProbeRecord, texels, "of chunk PRTX: mip, face, row, column"),
+                           "rms error of the mips' stored texels by solid angle, as a share of their rms"),
+              HEARTH_FIELD(hearth::formats::ProbeRecord, texels,
+                           "of chunk PRTX: mip, face, row, column; sharp mips first"),
+              HEARTH_FIELD(hearth::formats::ProbeRecord, sharp_mips,
+                           "finer mips than that of roughness 0, for the camera's background"),
               HEARTH_FIELD(hearth::formats::ProbeRecord, reserved, "0"));

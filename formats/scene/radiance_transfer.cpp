@@ -43,8 +43,10 @@ LightHarmonics projectDistantLight(const Sky& sky, std::span<const Light> lights
             if (is_included(i))
                 sum[i] += light * harmonics[i];
     };
-    // the sky is the same all around: only the harmonics of the height, 0, 1 and 4, have coefficients
-    for (int step = 0; step < kHeights; ++step)
+    if (sky.image != nullptr)
+        sum = sky.image->harmonics;
+    // the gradient is the same all around: only the harmonics of the height, 0, 1 and 4, have coefficients
+    for (int step = 0; step < kHeights && sky.image == nullptr; ++step)
     {
         const float height = (static_cast<float>(step) + 0.5f) * 2 / kHeights - 1;
         const Float3 direction{std::sqrt(1 - height * height), height, 0};

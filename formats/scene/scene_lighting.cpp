@@ -3,6 +3,7 @@
 
 #include "formats/base/affine3d.h"
 #include "formats/gpu_shared/shadow.h"
+#include "formats/scene/sky_image.h"
 
 #include <algorithm>
 #include <cmath>
@@ -84,14 +85,22 @@ float lightExposure(std::span<const formats::LightRecord> lights, const Box3& bo
     return illuminance > kKeyIlluminance ? kKeyIlluminance / illuminance : 1.0f;
 }
 
-SceneLighting sceneLighting(std::span<const formats::LightRecord> lights, const Box3& bounds)
+SceneLighting sceneLighting(std::span<const formats::LightRecord> lights, const Box3& bounds,
+                            const SceneProbes& probes)
 {
     SceneLighting lighting{.sky = {kSkyZenith, kSkyHorizon, kSkyGround},
                            .exposure = lightExposure(lights, bounds),
                            .lights = {}};
     for (const formats::LightRecord& record : shadedLights(lights))
         lighting.lights.push_back(lightFromRecord(record));
-    if (lighting.lights.empty())
+    if (const std::optional<size_t> i = findSkyProbe(probes.records))
+    {
+        const formats::ProbeRecord& probe = probes.records[*i];
+        lighting.sky_image =
+            makeSkyImage(probe, probes.texels.subspan(probe.texels.first, probe.texels.count));
+        lighting.sky = imageSky(*lighting.sky_image, probe);
+    }
+    else if (lighting.lights.empty())
         lighting.lights.push_back(defaultSun());
     for (Light& light : lighting.lights)
         light.intensity = light.intensity * lighting.exposure;

@@ -6,8 +6,10 @@
 #include "formats/gpu_shared/sky.h"
 #include "formats/records/bricks.h"
 #include "formats/records/mesh.h"
+#include "formats/records/probe.h"
 #include "formats/records/scene.h"
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -20,6 +22,7 @@ struct SceneLighting
     Sky sky;
     float exposure = 1; ///< of emission
     std::vector<Light> lights;
+    std::shared_ptr<const SkyImage> sky_image{}; ///< of the sky, if it has one
 };
 
 /// Return the luminance of a linear colour.
@@ -43,9 +46,17 @@ Box3 lightingBounds(std::span<const formats::InstanceRecord> instances,
 /// bounds  lightingBounds of the scene, metres
 float lightExposure(std::span<const formats::LightRecord> lights, const Box3& bounds);
 
-/// Return the exposed lights, the exposure, and the sky. A scene without lights gets one sun; lights beyond
-/// kMaxLights are left out.
-SceneLighting sceneLighting(std::span<const formats::LightRecord> lights, const Box3& bounds);
+/// Probes of a scene, with the texels of all.
+struct SceneProbes
+{
+    std::span<const formats::ProbeRecord> records{};
+    std::span<const uint32_t> texels{};
+};
+
+/// Return the exposed lights, the exposure, and the sky: that of the probe of a sky, or the default one. A
+/// scene with neither lights nor the probe of a sky gets one sun; lights beyond kMaxLights are left out.
+SceneLighting sceneLighting(std::span<const formats::LightRecord> lights, const Box3& bounds,
+                            const SceneProbes& probes = {});
 
 /// Give a light the reflector of another one.
 void copyReflector(Light& light, const Light& other);

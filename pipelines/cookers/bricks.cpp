@@ -50,6 +50,7 @@ Cooker describeBricks()
             .scope = settings::Scope::pack,
             .switched_by = "bricks.mode",
             .reads = {"import", "clusters", "textures"},
+            .reads_of_pack = {"probe"},
             .link_option = "--bricks",
             .has_statistics = true,
             .settings = makeBrickSettings(),

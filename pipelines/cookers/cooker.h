@@ -48,6 +48,9 @@ struct Cooker
     /// Cookers whose parts it reads, in the order of its command line. A cooker of the pack reads the parts
     /// of each source.
     std::vector<std::string_view> reads{};
+    /// For a cooker of the pack: earlier ones of the pack whose parts it reads where they run, each after an
+    /// option of that name, "--probe"
+    std::vector<std::string_view> reads_of_pack{};
     /// true: it reads the statistics of these cookers instead of their parts
     bool reads_statistics = false;
     /// Cooker of the pack whose list says what more the cooker gets for each source; empty: none

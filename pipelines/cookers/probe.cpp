@@ -13,6 +13,13 @@ using namespace settings;
 
 constexpr std::string_view kEnvironmentFile = "environment.file";
 
+Result<Arguments> makeProbeArguments(const Values& values)
+{
+    Arguments arguments;
+    addOption(values, "environment.sky_size", "--sky-size", arguments);
+    return arguments;
+}
+
 } // namespace
 
 Cooker describeProbe()
@@ -22,12 +29,18 @@ Cooker describeProbe()
             .switched_by = kEnvironmentFile,
             .file_setting = kEnvironmentFile,
             .link_option = "--probe",
-            .settings = {withOption(
-                {std::string(kEnvironmentFile), Kind::text,
-                 "image of the distant surroundings, of which the pack gets a light probe: HDR, "
-                 "EXR or KTX2, twice as wide as high, or a KTX2 cube",
-                 "off"},
-                "--sky", "FILE")},
+            .settings = {withOption({std::string(kEnvironmentFile), Kind::text,
+                                     "image of the sky, which the camera and all light see: HDR, "
+                                     "EXR or KTX2, twice as wide as high, or a KTX2 cube",
+                                     "off"},
+                                    "--sky", "FILE"),
+                         withSaving(
+                             "a coarser sky takes fewer bytes",
+                             wholeNumberSetting("environment.sky_size",
+                                                "texels of an edge of the cube that the camera sees, which "
+                                                "is no finer than the image",
+                                                "512", 1, 4096))},
+            .makeArguments = makeProbeArguments,
             // an image of 4096 x 2048 texels
             .cost = {320 * kMiB, 0, 0}};
 }

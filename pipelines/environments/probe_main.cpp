@@ -17,6 +17,7 @@ struct Arguments
     std::string environment;
     std::string output;
     uint32_t face_size = probes::kProbeSide;
+    uint32_t max_sky_size = 512;
     size_t jobs = 0;
 };
 
@@ -34,8 +35,10 @@ Status run(const Arguments& arguments)
     const cli::ThreadLimit limit(arguments.jobs);
     HEARTH_ASSIGN_OR_RETURN(const environment::Environment environment,
                             environments::readEnvironment(arguments.environment));
-    HEARTH_ASSIGN_OR_RETURN(const probes::Probe probe,
-                            probes::cookProbe(environment, arguments.environment, arguments.face_size));
+    HEARTH_ASSIGN_OR_RETURN(
+        probes::Probe probe,
+        probes::cookProbe(environment, arguments.environment, arguments.face_size, arguments.max_sky_size));
+    probe.record.flags = formats::kProbeIsSky;
     return writePart(arguments.output, probe);
 }
 
@@ -52,6 +55,10 @@ int program(int argc, char** argv)
     app.addOption("-o,--output", arguments.output, "probe part to write").required();
     app.addOption("--face-size", arguments.face_size, "texels along an edge of the cube")
         .choices(kFaceSizes, "N")
+        .showDefault();
+    app.addOption("--sky-size", arguments.max_sky_size,
+                  "largest edge of the sky that the camera sees, which is no finer than the image")
+        .range(1u, 4096u, "N")
         .showDefault();
     app.addOption("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
     app.setFooter(

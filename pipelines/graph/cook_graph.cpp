@@ -191,6 +191,12 @@ Status addCookerOfPack(const Cooker& cooker, Draft& draft)
             addInput(action, cooker.reads_statistics ? sourceStatisticsInput(draft.graph, actions.at(read))
                                                      : sourcePartInput(draft.graph, actions.at(read)));
         }
+    for (const std::string_view read : cooker.reads_of_pack)
+        if (const auto found = draft.actions_of_pack.find(read); found != draft.actions_of_pack.end())
+        {
+            addWord(action, fmt::format("--{}", read));
+            addInput(action, partInput(draft.graph, found->second));
+        }
     HEARTH_ASSIGN_OR_RETURN(draft.actions_of_pack[cooker.name],
                             finishAction(cooker, values, std::move(action), draft.graph));
     return success();

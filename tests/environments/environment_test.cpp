@@ -82,6 +82,25 @@ TEST(PanelDirection, ofCubesIsThatOfVulkan)
             }
 }
 
+TEST(FindTexel, undoesPanelDirection)
+{
+    for (const Layout layout : {Layout::lat_long, Layout::cube})
+    {
+        const Environment small{layout, layout == Layout::cube ? 5u : 10u, 5, {}};
+        for (uint32_t panel = 0; panel < small.panelCount(); ++panel)
+            for (uint32_t y = 0; y < small.height; ++y)
+                for (uint32_t x = 0; x < small.width; ++x)
+                    for (const double part : {0.01, 0.5, 0.99})
+                    {
+                        const PanelArea area = small.area(x, y);
+                        const PanelPoint point{area.u0 + part * (area.u1 - area.u0),
+                                               area.v0 + part * (area.v1 - area.v0)};
+                        EXPECT_EQ(findTexel(small, panelDirection(layout, panel, point) * 3),
+                                  small.index(panel, x, y));
+                    }
+    }
+}
+
 TEST(PanelSolidAngle, isThatOfTheSphere)
 {
     for (const Layout layout : {Layout::lat_long, Layout::cube})

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <numbers>
@@ -63,7 +64,7 @@ TEST(CookProbe, storesOneRadianceExactly)
     EXPECT_NEAR(probe.record.irradiance_luminance, kPi * luminance, 1e-5);
     const uint32_t expected = formats::encodeSharedExponent(
         {3 / (kPi * luminance), double{0.7f} / (kPi * luminance), double{1.9f} / (kPi * luminance)});
-    ASSERT_EQ(probe.texels.size(), formats::probeTexelCount(kSide, 6));
+    ASSERT_EQ(probe.texels.size(), formats::cubeTexelCount(kSide, 6));
     for (const uint32_t texel : probe.texels)
         ASSERT_EQ(texel, expected);
     EXPECT_NEAR(probe.record.harmonics[0], 3 * 2 * std::sqrt(kPi) / (kPi * luminance), 1e-6);
@@ -92,6 +93,37 @@ TEST(CookProbe, brightnessChangesTheIrradianceAlone)
         other += probe.texels[i] == third.texels[i] ? 0u : 1u;
     }
     EXPECT_LT(other, probe.texels.size() / 1000);
+}
+
+TEST(CookProbe, hasSharpMipsAsFineAsTheSky)
+{
+    const auto waves = [](Double3 d)
+    {
+        return Float3{static_cast<float>(2 + std::sin(9 * d.x)), static_cast<float>(2 + std::cos(7 * d.y)),
+                      static_cast<float>(2 + std::sin(8 * d.z))};
+    };
+    const Environment sky = makeEnvironment(Layout::lat_long, 256, waves); // 512 x 256: 128 texels a face
+    EXPECT_EQ(cookProbe(sky, "sky.hdr", kSide, 16)->record.sharp_mips, 0u);
+    EXPECT_EQ(cookProbe(sky, "sky.hdr", kSide, 64)->record.sharp_mips, 1u);
+    const Probe plain = cook(sky), probe = cookProbe(sky, "sky.hdr", kSide, 4096).value();
+    ASSERT_EQ(probe.record.sharp_mips, 2u);
+    ASSERT_EQ(probe.texels.size(), formats::cubeTexelCount(128, 8));
+    EXPECT_TRUE(std::ranges::equal(plain.texels, std::span(probe.texels).last(plain.texels.size())))
+        << "the others are as without";
+    EXPECT_EQ(plain.record.error, probe.record.error);
+    const uint32_t* texel = probe.texels.data();
+    for (const uint32_t side : {128u, 64u})
+        for (uint32_t i = 0; i < 6 * side * side; ++i, ++texel)
+        {
+            const Double3 direction = panelDirection(
+                Layout::cube, i / (side * side), {(i % side + 0.5) / side, (i / side % side + 0.5) / side});
+            const Float3 expected = waves(direction);
+            const std::array<float, 3> found = formats::decodeSharedExponent(*texel);
+            for (int c = 0; c < 3; ++c)
+                ASSERT_NEAR(found[static_cast<size_t>(c)] * probe.record.irradiance_luminance, expected[c],
+                            0.05)
+                    << side << ' ' << i;
+        }
 }
 
 TEST(CookProbe, windowsASunAndSaysWhatIsCut)

@@ -16,10 +16,22 @@ const std::vector<MalformedPack>& malformedProbes()
          [](PackModel& p) { p.probes[0].face_size = 1u << 31; }},
         {"probeOneMip", Issue::meaning_value, "probe 0", [](PackModel& p) { p.probes[0].mip_count = 1; }},
         {"probeManyMips", Issue::meaning_value, "probe 0", [](PackModel& p) { p.probes[0].mip_count = 3; }},
+        {"probeSharpMips", Issue::meaning_value, "probe 0",
+         [](PackModel& p) { p.probes[0].sharp_mips = 40; }},
+        {"probeFinerThanItsTexels", Issue::meaning_range, "probe 0",
+         [](PackModel& p) { p.probes[0].sharp_mips = 1; }},
+        {"probeTwoSkies", Issue::meaning_value, "probe 1",
+         [](PackModel& p)
+         {
+             p.probes[0].flags = formats::kProbeIsSky;
+             p.probes.push_back(p.probes[0]);
+             p.probes[1].texels.first = p.probes[0].texels.count;
+             p.probe_texels.insert(p.probe_texels.end(), p.probe_texels.begin(), p.probe_texels.end());
+         }},
         {"probeFormat", Issue::meaning_value, "probe 0", [](PackModel& p) { p.probes[0].format = 0; }},
-        {"probeFlags", Issue::meaning_padding, "probe 0", [](PackModel& p) { p.probes[0].flags = 1; }},
+        {"probeFlags", Issue::meaning_padding, "probe 0", [](PackModel& p) { p.probes[0].flags = 2; }},
         {"probeReserved", Issue::meaning_padding, "probe 0",
-         [](PackModel& p) { p.probes[0].reserved[7] = 1; }},
+         [](PackModel& p) { p.probes[0].reserved[6] = 1; }},
         {"probeIrradiance", Issue::meaning_value, "probe 0",
          [](PackModel& p) { p.probes[0].irradiance.z = -1; }},
         {"probeDark", Issue::meaning_value, "probe 0",

@@ -8,7 +8,7 @@
 namespace hearth::bricks
 {
 
-shared::SceneLighting makeSceneLighting(const StaticScene& scene)
+shared::SceneLighting makeSceneLighting(const StaticScene& scene, const shared::SceneProbes& probes)
 {
     std::vector<formats::LightRecord> lights;
     Box3 bounds;
@@ -17,7 +17,7 @@ shared::SceneLighting makeSceneLighting(const StaticScene& scene)
         lights.insert(lights.end(), source.scene.lights().begin(), source.scene.lights().end());
         bounds.add(shared::lightingBounds(source.scene.instances(), source.clusters.meshes()));
     }
-    return shared::sceneLighting(lights, bounds);
+    return shared::sceneLighting(lights, bounds, probes);
 }
 
 } // namespace hearth::bricks

@@ -8,9 +8,9 @@
 namespace hearth::bricks
 {
 
-/// Return the lights of all sources, in order, as many as the runtime draws; one sun if there is none; the
-/// default sky; and the exposure by the runtime's rule (runtime/gpu/README.md), which counts moving instances
-/// too.
-shared::SceneLighting makeSceneLighting(const StaticScene& scene);
+/// Return the lights of all sources, in order, as many as the runtime draws; the sky of a probe, or else the
+/// default sky, with a sun if there are no lights; and the exposure by the runtime's rule
+/// (runtime/gpu/README.md), which counts moving instances too.
+shared::SceneLighting makeSceneLighting(const StaticScene& scene, const shared::SceneProbes& probes = {});
 
 } // namespace hearth::bricks

@@ -27,6 +27,7 @@ struct Arguments
     std::vector<std::string> inputs; ///< parts, or with `rays` the file to march through
     std::string output;
     std::string rays;
+    std::string probe; ///< part with the probe of the sky, or empty
     std::string statistics;
     double voxel_size = 0;
     std::vector<double> min, max;
@@ -76,8 +77,18 @@ double secondsSince(std::chrono::steady_clock::time_point start)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
+/// Return the lights and the sky of a scene.
+/// probe  part with the probe of the sky; empty: the default sky
+Result<shared::SceneLighting> readSceneLighting(const StaticScene& scene, const std::string& probe)
+{
+    if (probe.empty())
+        return makeSceneLighting(scene);
+    HEARTH_ASSIGN_OR_RETURN(const formats::PackView sky, tools::openPart(probe));
+    return makeSceneLighting(scene, {sky.probes(), sky.probeTexels()});
+}
+
 /// Set the emission of the faces, and the light that they have under the scene's own lights.
-Status lightGrid(const StaticScene& scene, CookedGrid& grid)
+Status lightGrid(const StaticScene& scene, const std::string& probe, CookedGrid& grid)
 {
     auto start = std::chrono::steady_clock::now();
     HEARTH_TRY(traceEmission(scene, grid));
@@ -85,7 +96,7 @@ Status lightGrid(const StaticScene& scene, CookedGrid& grid)
     start = std::chrono::steady_clock::now();
     HEARTH_ASSIGN_OR_RETURN(grid.tables.reflectors,
                             findReflectors(scene, grid.statistics.frame, grid.statistics.error));
-    shared::SceneLighting lighting = makeSceneLighting(scene);
+    HEARTH_ASSIGN_OR_RETURN(shared::SceneLighting lighting, readSceneLighting(scene, probe));
     shared::addReflectors(lighting, grid.tables.reflectors);
     SettledLight light = settleLight(makeBrickView(grid.tables), lighting);
     grid.tables.lighting = std::move(light.codes);
@@ -112,7 +123,7 @@ Status cook(const Arguments& arguments)
             return cookNoGrid(arguments, reason);
     }
     HEARTH_ASSIGN_OR_RETURN(CookedGrid grid, cookGrid(scene, arguments.settings));
-    HEARTH_TRY(lightGrid(scene, grid));
+    HEARTH_TRY(lightGrid(scene, arguments.probe, grid));
     HEARTH_TRY(writeGridPart(arguments.output, grid));
     warn(grid.statistics, arguments.output);
     if (arguments.statistics.empty())
@@ -196,6 +207,8 @@ void addOptions(cli::CommandLine& app, Arguments& arguments)
     const cli::Option statistics =
         app.addOption("--stats", arguments.statistics,
                       "write statistics of the scene as JSON, and print the memory; - is standard output");
+    const cli::Option probe = app.addOption(
+        "--probe", arguments.probe, "probe part of the sky that lights the scene; default: the default sky");
     const cli::Option jobs =
         app.addOption("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
     cli::Option march = app.addOption(
@@ -204,7 +217,7 @@ void addOptions(cli::CommandLine& app, Arguments& arguments)
         "hit,x,y,z,face,t for each ray: 1, the first solid voxel, the face by which it is entered (none "
         "where the ray starts inside) and the distance in metres; 0,,,,, where it meets none");
     for (const cli::Option& option :
-         {voxel_size, min, max, seed, memory, error, only_if_needed, statistics, jobs})
+         {voxel_size, min, max, seed, memory, error, only_if_needed, statistics, probe, jobs})
         march.excludes(option);
     app.setFooter(
         "Examples:\n"

@@ -29,14 +29,20 @@ struct ProbeMips
     const ProbeRecord& record;
     std::vector<std::vector<Float3>> mips; ///< face, row, column
 
-    uint32_t side(size_t mip) const { return record.face_size >> mip; }
+    uint32_t side(size_t mip) const { return finestProbeSide(record) >> mip; }
+    double roughness(size_t mip) const
+    {
+        return mip < record.sharp_mips
+                   ? 0
+                   : probeMipRoughness(static_cast<uint32_t>(mip) - record.sharp_mips, record.mip_count);
+    }
 };
 
 ProbeMips decodeMips(const PackView& file, const ProbeRecord& record)
 {
     ProbeMips decoded{record, {}};
     const uint32_t* word = file.probeTexels().data() + record.texels.first;
-    for (uint32_t mip = 0; mip < record.mip_count; ++mip)
+    for (uint32_t mip = 0; mip < countProbeMips(record); ++mip)
     {
         std::vector<Float3>& texels = decoded.mips.emplace_back();
         for (size_t count = size_t{kFaces} * decoded.side(mip) * decoded.side(mip); count > 0; --count)
@@ -76,8 +82,8 @@ std::string makeTable(const ProbeMips& probe)
             }
         }
         text += fmt::format("{},{},{:.6g},{:.7g},{:.7g},{:.7g},{:.7g},{:.7g}\n", mip, probe.side(mip),
-                            probeMipRoughness(static_cast<uint32_t>(mip), probe.record.mip_count),
-                            sum[0] / weights, sum[1] / weights, sum[2] / weights, least, greatest);
+                            probe.roughness(mip), sum[0] / weights, sum[1] / weights, sum[2] / weights, least,
+                            greatest);
     }
     return text;
 }

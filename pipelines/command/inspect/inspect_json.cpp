@@ -215,6 +215,8 @@ Json sceneJson(const PackView& pack, const PackSummary& summary)
         const ProbeRecord& record = pack.probes()[i];
         return {{"face_size", record.face_size},
                 {"mips", record.mip_count},
+                {"sharp_mips", record.sharp_mips},
+                {"sky", (record.flags & kProbeIsSky) != 0},
                 {"bytes", record.texels.count * sizeof(uint32_t)},
                 {"irradiance", pointJson(record.irradiance)},
                 {"irradiance_luminance", record.irradiance_luminance},

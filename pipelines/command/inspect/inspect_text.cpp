@@ -93,11 +93,12 @@ std::string probesText(const PackView& pack)
 {
     std::string text;
     for (const ProbeRecord& probe : pack.probes())
-        text += fmt::format(
-            "probe      {0} x {0} texels a face, {1} mips, {2}; mean irradiance ({3:.4g}, {4:.4g}, "
-            "{5:.4g}), greatest value {6:.4g} of its luminance\n",
-            probe.face_size, probe.mip_count, readableSize(probe.texels.count * sizeof(uint32_t)),
-            probe.irradiance.x, probe.irradiance.y, probe.irradiance.z, probe.largest);
+        text += fmt::format("{:<10} {} x {} texels a face, {} mips, {}; mean irradiance ({:.4g}, {:.4g}, "
+                            "{:.4g}), greatest value {:.4g} of its luminance\n",
+                            (probe.flags & kProbeIsSky) != 0 ? "sky" : "probe", finestProbeSide(probe),
+                            finestProbeSide(probe), countProbeMips(probe),
+                            readableSize(probe.texels.count * sizeof(uint32_t)), probe.irradiance.x,
+                            probe.irradiance.y, probe.irradiance.z, probe.largest);
     return text;
 }
 

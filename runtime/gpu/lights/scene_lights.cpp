@@ -38,12 +38,21 @@ uint32_t countLists(const shared::LightGridLayout& grid, LightAreas areas)
     }
 }
 
+/// Write the rows of a sky's image.
+void writeSkyImage(const shared::SkyImage& image, std::span<std::byte> rows)
+{
+    std::memcpy(rows.data(), image.texels.data(), sizeof image.texels);
+    for (size_t i = 0; i < image.harmonics.size(); ++i)
+        std::memcpy(rows.data() + sizeof image.texels + i * kRowBytes, &image.harmonics[i], sizeof(Float3));
+}
+
 } // namespace
 
-LightBufferLayout LightBufferLayout::make(uint32_t capacity, uint64_t surroundings_rows)
+LightBufferLayout LightBufferLayout::make(uint32_t capacity, bool has_sky_image, uint64_t surroundings_rows)
 {
     LightBufferLayout layout{.capacity = capacity, .index_words = indexWords(capacity)};
-    layout.surroundings = layout.light(capacity);
+    layout.sky_image = layout.light(capacity);
+    layout.surroundings = layout.sky_image + (has_sky_image ? shared::kSkyImageRows : 0) * kRowBytes;
     layout.lists = layout.surroundings + surroundings_rows * kRowBytes;
     layout.cells = layout.lists + sizeof(shared::LightListCounts) + VkDeviceSize{capacity} * sizeof(uint32_t);
     layout.indices = layout.cells + VkDeviceSize{shared::kMaxLightCells} * sizeof(uint32_t);
@@ -60,6 +69,9 @@ SceneLights::SceneLights(const LightBufferLayout& layout, shared::SceneLighting 
     head_.sky_zenith = lighting_.sky.zenith;
     head_.sky_horizon = lighting_.sky.horizon;
     head_.sky_ground = lighting_.sky.ground;
+    head_.sky_image_row = lighting_.sky.image == nullptr
+                              ? shared::kNoSkyImage
+                              : static_cast<uint32_t>(layout_.sky_image / kRowBytes);
     head_.exposure = lighting_.exposure;
     head_.light_count = static_cast<uint32_t>(lighting_.lights.size());
     const auto word = [](VkDeviceSize bytes) { return static_cast<uint32_t>(bytes / sizeof(uint32_t)); };
@@ -80,6 +92,8 @@ void SceneLights::fill(MirroredTable& table, std::span<const std::byte> surround
     std::memcpy(bytes.data(), &head_, sizeof(head_));
     std::memcpy(bytes.data() + layout_.light(0), lighting_.lights.data(),
                 lighting_.lights.size() * sizeof(shared::Light));
+    if (const shared::SkyImage* image = lighting_.sky.image; image != nullptr)
+        writeSkyImage(*image, std::span(bytes).subspan(static_cast<size_t>(layout_.sky_image)));
     if (!surroundings.empty())
         std::memcpy(bytes.data() + layout_.surroundings, surroundings.data(), surroundings.size());
     table.fill(bytes);

@@ -26,6 +26,7 @@ struct LightBufferLayout
 {
     uint32_t capacity = 0;    ///< slots of lights
     uint32_t index_words = 0; ///< room for indices
+    VkDeviceSize sky_image = 0;
     VkDeviceSize surroundings = 0;
     VkDeviceSize lists = 0; ///< the parts before it are the table, those after it are the frame's
     VkDeviceSize cells = 0; ///< words of all lists, whatever has them
@@ -34,7 +35,7 @@ struct LightBufferLayout
     VkDeviceSize end = 0;
 
     /// surroundings_rows  of 16 bytes
-    static LightBufferLayout make(uint32_t capacity, uint64_t surroundings_rows);
+    static LightBufferLayout make(uint32_t capacity, bool has_sky_image, uint64_t surroundings_rows);
     VkDeviceSize light(uint32_t slot) const
     {
         return sizeof(shared::Lighting) + VkDeviceSize{slot} * sizeof(shared::Light);
@@ -54,7 +55,7 @@ public:
     /// Lights of the pack as loaded, in the first slots.
     std::span<const shared::Light> loaded() const { return loaded_; }
 
-    /// Set the content of the table, with the rows of surroundings behind the lights.
+    /// Set the content of the table, with the rows of the sky's image and of surroundings behind the lights.
     /// transfer_rows  of `surroundings`, before those of instances; all of them if the scene has none
     void fill(MirroredTable& table, std::span<const std::byte> surroundings, uint64_t transfer_rows,
               bool has_surroundings);

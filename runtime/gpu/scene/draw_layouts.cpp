@@ -44,6 +44,7 @@ ShadingBindings shadingBindings(const ShadingDescriptors& descriptors)
         textureBinding(shared::kSceneSpecularTable, kFragmentStage),
         textureBinding(shared::kSceneReflectance, kFragmentStage),
         textureBinding(shared::kSceneSkyTable, kFragmentStage),
+        textureBinding(shared::kSceneSkyCube, kFragmentStage),
     };
     for (uint32_t slice = 0; slice < shared::kPoolSlices; ++slice)
         bindings.scene.push_back(storageBinding(shared::kScenePool + slice, kAll));

@@ -164,6 +164,7 @@ struct Scene
     uint32_t used_slices = shared::kPoolSlices; ///< 1 if the first slice holds all geometry
     Image reflectance_table;                    ///< of formats/gpu_shared/reflectance.h
     Image sky_table;                            ///< of formats/gpu_shared/sky.h
+    Image sky_cube;                             ///< black if the sky has no image
     Image specular_table;                       ///< empty if the pack has none
     uint32_t specular_spacing = 0;              ///< shared::kSpecularSpacing* of the table
     std::unique_ptr<SceneLights> lights;

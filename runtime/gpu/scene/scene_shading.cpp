@@ -108,7 +108,8 @@ shared::MaterialLayers makeLayers(const formats::MaterialLayersRecord& record)
 shared::SceneLighting makeLighting(const formats::PackView& pack)
 {
     shared::SceneLighting lighting =
-        shared::sceneLighting(pack.lights(), shared::lightingBounds(pack.instances(), pack.meshes()));
+        shared::sceneLighting(pack.lights(), shared::lightingBounds(pack.instances(), pack.meshes()),
+                              {pack.probes(), pack.probeTexels()});
     shared::addReflectors(lighting, pack.reflectors());
     return lighting;
 }

@@ -21,10 +21,9 @@ SceneSurroundings::Row packRow(const formats::SurroundingsRecord& record)
 
 } // namespace
 
-SceneSurroundings::SceneSurroundings(const formats::PackView& pack, const shared::SceneLighting& lighting)
+SceneSurroundings::SceneSurroundings(const formats::PackView& pack, shared::SceneLighting lighting)
     : transfers_(pack.radianceTransfers().begin(), pack.radianceTransfers().end()),
-      sky_(lighting.sky),
-      lights_(lighting.lights)
+      lighting_(std::move(lighting))
 {
     std::ranges::transform(pack.surroundings(), std::back_inserter(instances_), packRow);
 }
@@ -41,7 +40,7 @@ uint64_t SceneSurroundings::countTransferRows(const formats::PackView& pack)
 
 std::vector<shared::OccluderLight> SceneSurroundings::makeOccluderLights() const
 {
-    const shared::LightHarmonics harmonics = shared::projectDistantLight(sky_, lights_);
+    const shared::LightHarmonics harmonics = shared::projectDistantLight(lighting_.sky, lighting_.lights);
     std::vector<shared::OccluderLight> lights;
     lights.reserve(transfers_.size());
     for (const formats::RadianceTransferRecord& transfer : transfers_)
@@ -61,11 +60,11 @@ std::vector<SceneSurroundings::Row> SceneSurroundings::makeRows() const
 
 void SceneSurroundings::change(uint32_t slot, const shared::Light& record)
 {
-    if (slot >= lights_.size())
-        lights_.resize(slot + 1);
+    if (slot >= lighting_.lights.size())
+        lighting_.lights.resize(slot + 1);
     changed_ = changed_ || record.type == shared::kLightDirectional ||
-               lights_[slot].type == shared::kLightDirectional;
-    lights_[slot] = record;
+               lighting_.lights[slot].type == shared::kLightDirectional;
+    lighting_.lights[slot] = record;
 }
 
 void SceneSurroundings::update(MirroredTable& lighting, VkDeviceSize offset)

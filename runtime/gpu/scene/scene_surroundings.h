@@ -20,7 +20,7 @@ public:
 
     /// pack      with surroundings
     /// lighting  of the scene, as loaded
-    SceneSurroundings(const formats::PackView& pack, const shared::SceneLighting& lighting);
+    SceneSurroundings(const formats::PackView& pack, shared::SceneLighting lighting);
 
     /// Return the number of rows of a pack; 0 if it has no surroundings.
     static uint64_t countRows(const formats::PackView& pack);
@@ -43,8 +43,7 @@ private:
 
     std::vector<formats::RadianceTransferRecord> transfers_;
     std::vector<Row> instances_;
-    shared::Sky sky_;
-    std::vector<shared::Light> lights_;
+    shared::SceneLighting lighting_;
     bool changed_ = false;
 };
 

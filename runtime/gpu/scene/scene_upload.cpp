@@ -456,7 +456,8 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
     const auto slots = static_cast<uint32_t>(
         std::clamp<size_t>(options.max_lights, lighting.lights.size(), shared::kMaxLights));
     scene->lights = std::make_unique<SceneLights>(
-        LightBufferLayout::make(slots, SceneSurroundings::countRows(pack)), std::move(lighting));
+        LightBufferLayout::make(slots, lighting.sky.image != nullptr, SceneSurroundings::countRows(pack)),
+        std::move(lighting));
     if (!layout.deformation.words.empty())
         scene->deformation = makeDeformation(device, options.deformation, layout, group_items.rigid_items);
     HEARTH_TRY(createBuffers(device, pack, layout, options, *scene));

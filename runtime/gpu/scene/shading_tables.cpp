@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/scene/reflectance.h"
 #include "formats/scene/sheen.h"
+#include "formats/scene/sky_image.h"
 #include "formats/scene/sky_table.h"
 #include "runtime/gpu/scene/scene.h"
 #include "runtime/gpu/vulkan/sampler.h"
@@ -39,6 +40,38 @@ Status uploadSpecularTable(const Device& device, const formats::PackView& pack, 
     return success();
 }
 
+/// Upload the cube map of the sky's probe; a black one if the pack has none, since the binding must be valid.
+Status uploadSkyCube(const Device& device, const formats::PackView& pack, Uploader& uploader, Scene& scene)
+{
+    uint32_t side = 1, mip_count = 1;
+    const std::array<uint32_t, 6> black{};
+    std::span<const uint32_t> texels = black;
+    if (const std::optional<size_t> sky = shared::findSkyProbe(pack.probes()))
+    {
+        const formats::ProbeRecord& probe = pack.probes()[*sky];
+        side = formats::finestProbeSide(probe);
+        mip_count = formats::countProbeMips(probe);
+        texels = pack.probeTexels().subspan(probe.texels.first, probe.texels.count);
+    }
+    HEARTH_ASSIGN_OR_RETURN(scene.sky_cube,
+                            scene.arena.createImage({.format = VK_FORMAT_E5B9G9R9_UFLOAT_PACK32,
+                                                     .extent = {side, side},
+                                                     .mip_count = mip_count,
+                                                     .usage = kTableUsage,
+                                                     .is_cube = true}));
+    HEARTH_TRY(uploader.upload(scene.sky_cube, std::as_bytes(texels), {.bytes = sizeof(uint32_t)}));
+    HEARTH_ASSIGN_OR_RETURN(UniqueSampler sampler, createCubeSampler(device));
+    forEachView(scene,
+                [&](const SceneView& view)
+                {
+                    DescriptorWriter(view.draw_set)
+                        .texture(shared::kSceneSkyCube, scene.sky_cube.view.get(), sampler.get())
+                        .write(device);
+                });
+    scene.samplers.push_back(std::move(sampler));
+    return success();
+}
+
 } // namespace
 
 Status uploadShadingTables(const Device& device, const formats::PackView& pack, Uploader& uploader,
@@ -71,6 +104,7 @@ Status uploadShadingTables(const Device& device, const formats::PackView& pack, 
                         .texture(shared::kSceneSkyTable, scene.sky_table.view.get(), sampler)
                         .write(device);
                 });
+    HEARTH_TRY(uploadSkyCube(device, pack, uploader, scene));
     return uploadSpecularTable(device, pack, sampler, uploader, scene);
 }
 

@@ -17,7 +17,7 @@ void transition(const Device& device, VkCommandBuffer commands, const Image& ima
     info.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     info.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     info.image = image.handle.get();
-    info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, image.mip_count, 0, 1};
+    info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, image.mip_count, 0, image.layer_count};
     device.vk.vkCmdPipelineBarrier(commands, from_stage, to_stage, 0, 0, nullptr, 0, nullptr, 1, &info);
 }
 

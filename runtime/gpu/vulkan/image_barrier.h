@@ -7,7 +7,7 @@
 namespace hearth::gpu
 {
 
-/// Transition all mips of an image without layers. The writes `written` of `from_stage` are visible to the
+/// Transition all mips and layers of an image. The writes `written` of `from_stage` are visible to the
 /// reads `read` of `to_stage`.
 void transition(const Device& device, VkCommandBuffer commands, const Image& image, VkImageLayout from,
                 VkImageLayout to, VkAccessFlags written, VkAccessFlags read, VkPipelineStageFlags from_stage,

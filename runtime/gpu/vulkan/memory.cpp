@@ -59,6 +59,13 @@ VkDeviceSize alignUp(VkDeviceSize value, VkDeviceSize alignment)
     return (value + alignment - 1) / alignment * alignment;
 }
 
+VkImageViewType viewType(const ImageDescription& description)
+{
+    if (description.is_cube)
+        return VK_IMAGE_VIEW_TYPE_CUBE;
+    return description.array_layers > 0 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
+}
+
 /// Create an image without memory.
 Result<UniqueImage> createUnbound(const Device& device, const ImageDescription& description)
 {
@@ -68,7 +75,8 @@ Result<UniqueImage> createUnbound(const Device& device, const ImageDescription& 
     info.format = description.format;
     info.extent = {description.extent.width, description.extent.height, 1};
     info.mipLevels = description.mip_count;
-    info.arrayLayers = std::max(description.array_layers, 1u);
+    info.arrayLayers = countLayers(description);
+    info.flags = description.is_cube ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0;
     info.samples = VK_SAMPLE_COUNT_1_BIT;
     info.tiling = VK_IMAGE_TILING_OPTIMAL;
     info.usage = description.usage;
@@ -183,6 +191,7 @@ Result<Image> MemoryArena::createImage(const ImageDescription& description)
     image.format = description.format;
     image.extent = description.extent;
     image.mip_count = description.mip_count;
+    image.layer_count = countLayers(description);
 
     VkMemoryRequirements needs;
     device_->vk.vkGetImageMemoryRequirements(device_->handle, handle, &needs);
@@ -194,11 +203,10 @@ Result<Image> MemoryArena::createImage(const ImageDescription& description)
     VkImageViewCreateInfo view_info{};
     view_info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
     view_info.image = handle;
-    view_info.viewType = description.array_layers > 0 ? VK_IMAGE_VIEW_TYPE_2D_ARRAY : VK_IMAGE_VIEW_TYPE_2D;
+    view_info.viewType = viewType(description);
     view_info.format = description.format;
     view_info.components = description.components;
-    view_info.subresourceRange = {description.aspect, 0, description.mip_count, 0,
-                                  std::max(description.array_layers, 1u)};
+    view_info.subresourceRange = {description.aspect, 0, description.mip_count, 0, countLayers(description)};
     VkImageView view;
     HEARTH_TRY_VK(device_->vk.vkCreateImageView(device_->handle, &view_info, device_->allocator, &view),
                   "create an image view");

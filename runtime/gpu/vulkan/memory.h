@@ -25,6 +25,7 @@ struct Image
     VkFormat format = VK_FORMAT_UNDEFINED;
     VkExtent2D extent{};
     uint32_t mip_count = 1;
+    uint32_t layer_count = 1;
     VkDeviceSize bytes = 0; ///< that the device needs for it
 };
 
@@ -36,9 +37,16 @@ struct ImageDescription
     VkImageUsageFlags usage;
     VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
     uint32_t array_layers = 0;            ///< 0: not an array
+    bool is_cube = false;                 ///< six square panels; not an array
     MemoryKind kind = MemoryKind::device; ///< or transient, with usage TRANSIENT_ATTACHMENT
     VkComponentMapping components{};      ///< of the view
 };
+
+/// Return the number of layers of an image.
+constexpr uint32_t countLayers(const ImageDescription& description)
+{
+    return description.is_cube ? 6 : std::max(description.array_layers, 1u);
+}
 
 /// Return the bytes that the device needs for an image. errors: device_failed.
 Result<VkDeviceSize> measureImage(const Device& device, const ImageDescription& description);

@@ -1,4 +1,4 @@
-// Samplers without mips.
+// Samplers of tables and of cube maps.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,5 +10,9 @@ namespace hearth::gpu
 /// Create a sampler of one mip that clamps coordinates to the edge.
 /// errors: device_failed.
 Result<UniqueSampler> createClampingSampler(const Device& device, VkFilter filter);
+
+/// Create a trilinear sampler of a cube map, all mips of it.
+/// errors: device_failed.
+Result<UniqueSampler> createCubeSampler(const Device& device);
 
 } // namespace hearth::gpu

@@ -44,10 +44,11 @@ Status Uploader::upload(const Image& target, std::span<const std::byte> texels, 
         const VkExtent3D extent{std::max(1u, target.extent.width >> mip),
                                 std::max(1u, target.extent.height >> mip), 1};
         // the mip's own extent, even where its last blocks are not whole
-        regions.push_back({offset, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, mip, 0, 1}, {0, 0, 0}, extent});
+        regions.push_back(
+            {offset, 0, 0, {VK_IMAGE_ASPECT_COLOR_BIT, mip, 0, target.layer_count}, {0, 0, 0}, extent});
         const VkDeviceSize columns = (extent.width + block.width - 1) / block.width;
         const VkDeviceSize rows = (extent.height + block.height - 1) / block.height;
-        offset += columns * rows * block.bytes;
+        offset += columns * rows * block.bytes * target.layer_count;
     }
     HEARTH_ASSERT(offset == texels.size());
     transition(device_, commands_, target, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 0,

@@ -38,8 +38,8 @@ public:
         return upload(target, std::as_bytes(std::span(records)));
     }
 
-    /// Upload all mips of an image, finest first, tightly packed, in whole blocks; leaves it
-    /// readable by shaders.
+    /// Upload all mips of an image, finest first, each with all of its layers, tightly packed, in whole
+    /// blocks; leaves it readable by shaders.
     Status upload(const Image& target, std::span<const std::byte> texels, const TexelBlock& block);
 
     /// Make all copies visible to later commands.

@@ -30,7 +30,7 @@ vec4 traceLobeRay(GatherPoint point, BrickStart start, uint index, uint seed)
     if (ray.weight == 0.0)
         return vec4(0.0);
     vec3 origin = brickRayOrigin(brick_view.grid, start, ray.direction);
-    return vec4(brickRayLight(brick_view.grid, brickSky(), origin, ray.direction).radiance * ray.weight, ray.weight);
+    return vec4(brickRayLight(brick_view.grid, sceneSky(), origin, ray.direction).radiance * ray.weight, ray.weight);
 }
 
 vec3 averageLobe(uint row, uint first)
@@ -197,7 +197,7 @@ void main()
         vec3 direction = brickRayDirection(start.normal, index * kGatherFrames + gather.frame % kGatherFrames,
                                            kGatherRays * kGatherFrames, seed);
         ray_direction[row][index] = direction;
-        BrickRayLight light = brickRayLight(brick_view.grid, brickSky(), brickRayOrigin(brick_view.grid, start, direction), direction);
+        BrickRayLight light = brickRayLight(brick_view.grid, sceneSky(), brickRayOrigin(brick_view.grid, start, direction), direction);
         ray_light[row][index] = vec4(light.radiance, light.sky);
         lobe_light[row][index] = traceLobeRay(point, start, index, seed);
     }

@@ -132,7 +132,7 @@ void main()
 
     BrickGrid grid = brick_view.grid;
     BrickStart start = brickFaceStart(grid, x, y, z, side, brickNormalAt(face), brickFaceSurface(x, y, z, side, brickDepthAt(face)));
-    vec3 arrived = brickGather(grid, brickSky(), start, brick_view.light_rays, brickFaceSeed(x, y, z, side));
+    vec3 arrived = brickGather(grid, sceneSky(), start, brick_view.light_rays, brickFaceSeed(x, y, z, side));
     for (uint word = 0u; word < (lighting.light_count + 31u) / 32u; ++word)
         for (uint bits = marks[word]; bits != 0u; bits &= bits - 1u)
             arrived += brickDirect(grid, start, lights[word * 32u + uint(findLSB(bits))]);

@@ -21,6 +21,7 @@ layout(set = kSetBricks, binding = kBricksLighting, std140) readonly buffer Ligh
     Lighting lighting;
     Light lights[];
 };
+layout(set = kSetBricks, binding = kBricksLighting, std430) readonly buffer LightWords { uint light_words[]; };
 
 BrickGroup brickGroupAt(BrickGrid grid, uint group) { return brick_groups[group]; }
 Brick brickAt(BrickGrid grid, uint brick) { return bricks[brick]; }
@@ -46,4 +47,4 @@ vec3 brickNormalAt(uint face)
     return decodeFaceNormal(word >> (face & 1u) * 16u & 0xFFFFu);
 }
 
-Sky brickSky() { return Sky(lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground); }
+#include "runtime/shaders/scene/sky_rows.glsl"

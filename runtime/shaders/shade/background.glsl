@@ -10,7 +10,7 @@
 #include "runtime/shaders/shade/shaded_color.glsl"
 
 layout(set = kSetScene, binding = kSceneFrame, std140) uniform Frame { FrameView view; };
-layout(set = kSetScene, binding = kSceneLighting, std140) readonly buffer LightingBlock { Lighting lighting; };
+#include "runtime/shaders/scene/light_block.glsl"
 #include "runtime/shaders/shade/sky.glsl"
 
 layout(constant_id = kConstantComparesMaterial) const bool kComparesMaterial = false;
@@ -30,7 +30,7 @@ void main()
     vec3 x = view.clip_x.xyz;
     vec3 y = view.clip_y.xyz;
     vec3 direction = normalize(view.clip_w.xyz + x * (ndc.x / dot(x, x)) + y * (ndc.y / dot(y, y)));
-    vec3 color = push.debug_view == kViewFinal ? shadedColor(skyRadiance(sceneSky(), direction)) : linearFromSrgb(vec3(0.08));
+    vec3 color = push.debug_view == kViewFinal ? shadedColor(skyBackground(direction)) : linearFromSrgb(vec3(0.08));
     out_color = vec4(color, 1.0);
 #ifdef HEARTH_STORES_SURFACES
     out_surface = kNoSurface;

@@ -1,19 +1,56 @@
-// The sky that lights every scene (formats/gpu_shared/sky.h). Needs the lighting block, which holds the
-// radiances; the including file includes it before.
+// The sky that lights every scene (formats/gpu_shared/sky.h). Needs scene/light_block.glsl.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/light_cone.h"
-#include "formats/gpu_shared/sky.h"
+#include "runtime/shaders/scene/sky_rows.glsl"
 
 // texels (height, half-angle): means over cones
 layout(set = kSetScene, binding = kSceneSkyTable) uniform mediump sampler2D sky_table;
+// radiance as lobes of each roughness reflect it, over sky_zenith; its largest texel is beyond mediump
+layout(set = kSetScene, binding = kSceneSkyCube) uniform samplerCube sky_cube;
 
-Sky sceneSky() { return Sky(lighting.sky_zenith, lighting.sky_horizon, lighting.sky_ground); }
+// Largest radiance of a reflection: half of what mediump holds.
+const float kMaxMirrorRadiance = 32768.0;
 
-// Mean radiance over a cone.
+// Mean radiance of the gradient over a cone.
 mediump vec3 skyConeRadiance(LightCone cone)
 {
     const mediump vec2 nodes = vec2(kSkyTableHeights, kSkyTableAngles);
     mediump vec2 at = (skyTableCoordinates(cone.axis.y, cone.cos_half_angle) * (nodes - 1.0) + 0.5) / nodes;
     return skyMeanRadiance(sceneSky(), textureLod(sky_table, at, 0.0).rg); // one mip
+}
+
+// Radiance from a direction, as the camera sees it.
+vec3 skyBackground(vec3 direction)
+{
+    Sky sky = sceneSky();
+    if (!hasSkyImage(sky))
+        return skyRadiance(sky, direction);
+    // texels of a pixel: sharp mips alone are filtered for that
+    float side = float(textureSize(sky_cube, 0).x);
+    vec3 across = max(abs(dFdx(direction)), abs(dFdy(direction)));
+    float lod = log2(max(max(across.x, max(across.y, across.z)) * 0.5 * side, 1.0));
+    return sky.zenith * textureLod(sky_cube, direction, min(lod, sky.horizon.x)).rgb;
+}
+
+// Mean radiance over a wide cone: of the diffuse part or of sheen.
+mediump vec3 skyDiffuse(LightCone cone)
+{
+    Sky sky = sceneSky();
+    return hasSkyImage(sky) ? skyImageConeRadiance(sky, cone.axis, cone.cos_half_angle) : skyConeRadiance(cone);
+}
+
+// Mean radiance over the visible part of a lobe. A part of the lobe sees what a smaller roughness would:
+// alpha, the square of the roughness, is about in proportion to the half-angle.
+// open  cone of the whole lobe
+mediump vec3 skyMirror(LightCone visible, LightCone open, float roughness)
+{
+    Sky sky = sceneSky();
+    if (!hasSkyImage(sky))
+        return skyConeRadiance(visible);
+    float share = sqrt(clamp((1.0 - visible.cos_half_angle) / max(1.0 - open.cos_half_angle, 1e-4), 0.0, 1.0));
+    float part = roughness * sqrt(share);
+    float last = float(textureQueryLevels(sky_cube)) - 1.0 - sky.horizon.x;
+    float lod = sky.horizon.x + last * part * (2.0 - part); // formats/records/probe.h
+    return min(sky.zenith * textureLod(sky_cube, visible.axis, lod).rgb, kMaxMirrorRadiance);
 }

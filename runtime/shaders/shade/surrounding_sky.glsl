@@ -15,9 +15,9 @@ mediump vec3 mirroredSky(SkyView sky, OccluderLight occluders, LightCone open, v
                          mediump float n_dot_v, mediump float occlusion)
 {
     if (!kSkyVisibility)
-        return occlusion * skyConeRadiance(open);
+        return occlusion * skyMirror(open, open, roughness);
     mediump float share = min(occlusion, specularSky(sky, roughness, n_dot_v, mirror));
-    return share * skyConeRadiance(visibleSpecularCone(sky, open)) + specularOccluders(occluders, open, share);
+    return share * skyMirror(visibleSpecularCone(sky, open), open, roughness) + specularOccluders(occluders, open, share);
 }
 
 vec3 surroundingLight(SurfacePoint point, Shading shading, Layers layers, mediump float occlusion)
@@ -38,7 +38,7 @@ vec3 surroundingLight(SurfacePoint point, Shading shading, Layers layers, medium
         occluded = diffuseOccluders(occluders, sky, diffuse_share);
     }
     LightCone specular = lobeCone(shading.lobe, mirror, shading.normal);
-    mediump vec3 radiance = shading.albedo.diffuse * (diffuse_share * skyConeRadiance(diffuse) + occluded) +
+    mediump vec3 radiance = shading.albedo.diffuse * (diffuse_share * skyDiffuse(diffuse) + occluded) +
                     shading.albedo.specular * mirroredSky(sky, occluders, specular, mirror, shading.roughness,
                                                           shading.n_dot_v, occlusion);
     if (hasLayer(kLayerSheen))
@@ -47,7 +47,7 @@ vec3 surroundingLight(SurfacePoint point, Shading shading, Layers layers, medium
         LightCone open = sheenCone(layers.sheen, shading.to_eye, shading.normal);
         if (kSkyVisibility)
             open = visibleSpecularCone(sky, open);
-        radiance = addSheen(layers, radiance, diffuse_share * skyConeRadiance(open) + occluded);
+        radiance = addSheen(layers, radiance, diffuse_share * skyDiffuse(open) + occluded);
     }
     if (hasLayer(kLayerClearcoat))
     {

@@ -34,7 +34,7 @@ void main()
     BrickGrid grid = brick_view.grid;
     BrickRay ray = brickMarch(grid, brickRay(grid, view.eye, direction, kBrickInfinity));
     bool lit = push.debug_view == kViewBrickLighting;
-    vec3 color = lit ? toneMap(skyRadiance(brickSky(), direction)) : linearFromSrgb(vec3(0.08));
+    vec3 color = lit ? toneMap(skyRadiance(sceneSky(), direction)) : linearFromSrgb(vec3(0.08));
     if (ray.inside != 0u)
     {
         uint face = brickFace(bricks[ray.brick], ray.bit, ray.face);

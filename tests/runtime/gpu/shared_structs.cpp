@@ -141,7 +141,7 @@ std::vector<SharedStruct> frameStructs()
                       passed1, passed2, passed3),
         HEARTH_STRUCT(Lighting, sky_zenith, light_count, sky_horizon, exposure, sky_ground, surroundings_row,
                       transfers_row, first_list_word, first_cell_word, first_index_word, index_words,
-                      list_count, first_in_view, reserved, grid, cascades, tiles),
+                      list_count, first_in_view, sky_image_row, grid, cascades, tiles),
         HEARTH_STRUCT(LightGrid, right, z_near, down, slack_share, forward, slack_size, eye, is_orthographic,
                       edges, edge_lengths, slab_count, cell_count, max_columns, max_rows),
         HEARTH_STRUCT(LightCascade, begin, slab_depth, slabs_per_m, cells_per_pixel, column_step,

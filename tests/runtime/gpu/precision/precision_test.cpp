@@ -30,7 +30,7 @@ const std::map<std::string, double>& relaxedShares()
                                                          {"shading_gi_frag", 15},
                                                          {"shading_shadowed_gi_frag", 13},
                                                          {"surfaces_frag", 28},
-                                                         {"surfaces_sky_frag", 9},
+                                                         {"surfaces_sky_frag", 6},
                                                          {"surfaces_shadowed_frag", 25},
                                                          {"surfaces_gi_frag", 14},
                                                          {"surfaces_shadowed_gi_frag", 13},
@@ -84,12 +84,12 @@ bool shades(const std::string& shader)
 }
 
 /// Return whether a shader that shades finds texels of textures or shadow maps: lights that cast no shadow
-/// and the sky read buffers and the pixel's own attachments.
+/// read buffers and the pixel's own attachments.
 bool readsTexels(const std::string& name)
 {
     const bool adds_lights =
         name.starts_with("add_") || name.starts_with("sum_") || name.starts_with("join_");
-    return name != "surfaces_sky_frag" && (!adds_lights || name.find("_shadowed") != std::string::npos);
+    return !adds_lights || name.find("_shadowed") != std::string::npos;
 }
 
 /// True if a shader is rewritten to see that a test can fail: a sanitizer takes long for all ways through a
