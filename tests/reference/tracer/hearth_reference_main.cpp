@@ -4,6 +4,7 @@
 #include "formats/base/program.h"
 #include "formats/pack/pack_check.h"
 #include "formats/scene/animation.h"
+#include "pipelines/environments/read_environment.h"
 #include "runtime/pack/pose_player.h"
 #include "tests/reference/flip.h"
 #include "tests/reference/tracer/reference_renderer.h"
@@ -19,7 +20,7 @@ using namespace hearth::reference;
 
 struct Arguments
 {
-    std::string pack, output, size = "512x512", compare, flip_map;
+    std::string pack, output, size = "512x512", compare, flip_map, sky;
     std::vector<float> camera;
     int scene_camera = -1;
     std::string animation;
@@ -109,6 +110,11 @@ Status run(Arguments& arguments)
         HEARTH_ASSIGN_OR_RETURN(pose, readPose(view, arguments));
         arguments.options.pose = &pose;
     }
+    if (!arguments.sky.empty())
+    {
+        HEARTH_ASSIGN_OR_RETURN(environment::Environment sky, environments::readEnvironment(arguments.sky));
+        arguments.options.sky_map = std::make_shared<SkyMap>(std::move(sky));
+    }
     HEARTH_ASSIGN_OR_RETURN(const Image image, renderReference(view, arguments.options));
     HEARTH_TRY(writePng(arguments.output, image));
     return arguments.compare.empty() ? success() : compare(image, arguments);
@@ -136,6 +142,9 @@ int main(int argc, char** argv)
                   "rays to the sky for each sample and lobe: what hides it counts (default 0: nothing does)");
     app.addOption("--bounces", arguments.options.sky.bounces,
                   "diffuse bounces of what hides the sky (default 0: it is black)");
+    app.addOption("--paths", arguments.options.paths,
+                  "paths of each pixel, with all light and shadows, in place of these rays");
+    app.addOption("--sky", arguments.sky, "with --paths: image of the sky, in place of the pack's");
     app.addOption("--compare", arguments.compare, "print how far this PNG is from that, by FLIP and RMSE");
     app.addOption("--flip-map", arguments.flip_map, "write that difference as an image");
     if (const std::optional<int> exit_code = app.parse(argc, argv))

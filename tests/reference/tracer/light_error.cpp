@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/reference/tracer/light_error.h"
 
+#include "formats/base/assert.h"
+
 #include <algorithm>
 #include <tbb/parallel_for.h>
 
@@ -119,6 +121,7 @@ std::vector<LitPoint> litPoints(const ShadedScene& scene, const std::vector<Seen
 
 shared::SceneLighting sharedLighting(const SceneLighting& lighting)
 {
+    HEARTH_ASSERT(lighting.sky_map == nullptr);
     shared::SceneLighting result{
         .sky = {narrowed(lighting.zenith), narrowed(lighting.horizon), narrowed(lighting.ground)},
         .exposure = static_cast<float>(lighting.exposure),

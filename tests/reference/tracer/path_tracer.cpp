@@ -20,6 +20,7 @@ namespace
 constexpr double kPi = 3.14159265358979323846;
 constexpr double kFar = 1e30;
 constexpr double kBrightShare = 0.5; ///< of the paths that go on to a bright surface
+constexpr double kSkyShare = 0.4;    ///< of the others, to a bright part of the sky
 constexpr uint32_t kSureBounces = 3; ///< before Russian roulette
 
 double largest(Double3 v)
@@ -141,19 +142,27 @@ private:
         double density = 0;             ///< of the direction over solid angle; 0: the path ends
     };
 
-    /// Take a direction that a surface scatters light to, or one to a bright surface. The density is that of
-    /// both ways together.
+    /// Take a direction that a surface scatters light to, one to a bright surface, or one to a bright part of
+    /// the sky. The density is that of all ways together.
     Step takeStep(const ShadedPoint& point, const Scattering& scattering, Random& random) const
     {
         const double bright_share = bright_->empty() ? 0 : kBrightShare;
+        const SkyMap* const sky = scene_.lighting().sky_map.get();
+        const double sky_share = sky == nullptr ? 0 : kSkyShare * (1 - bright_share);
         const Double3 start = lifted(point);
         std::optional<BrightTriangles::Pick> pick;
         Step step;
-        if (random.next() < bright_share)
+        const double way = random.next();
+        if (way < bright_share)
         {
             const double choice = random.next(), u = random.next(), v = random.next();
             pick = bright_->pick(start, choice, u, v);
             step.direction = pick->direction;
+        }
+        else if (way < bright_share + sky_share)
+        {
+            const double choice = random.next(), u = random.next(), v = random.next();
+            step.direction = sky->pick(choice, u, v);
         }
         else
             step.direction = scattering.sample(random);
@@ -164,7 +173,9 @@ private:
         if (pick && !(step.met && pick->isMetAt(*step.met)))
             return step; // something is in the way
         const double bright = step.met ? bright_->density(*step.met, step.direction) : 0;
-        step.density = bright_share * bright + (1 - bright_share) * scattered;
+        step.density = bright_share * bright + (1 - bright_share - sky_share) * scattered;
+        if (sky != nullptr)
+            step.density += sky_share * sky->density(step.direction);
         return step;
     }
 

@@ -80,6 +80,59 @@ TEST_F(PathTracerTest, agreesOnAnOpenPlaneWithTheIntegralOverTheSky)
         }
 }
 
+/// The sky of an image with a small sun, beside a sum over its texels.
+TEST_F(PathTracerTest, agreesWithTheSumOverTheTexelsOfASky)
+{
+    constexpr uint32_t kRows = 32;
+    for (const auto layout : {environment::Layout::lat_long, environment::Layout::cube})
+        for (const float roughness : {0.25f, 0.9f})
+        {
+            const bool is_cube = layout == environment::Layout::cube;
+            SCOPED_TRACE(::testing::Message() << is_cube << " " << roughness);
+            test_ = {};
+            scene_.reset();
+            material_ = test::plainMaterial();
+            material_.roughness = roughness;
+            material_.base_color = {0.5f, 0.5f, 0.5f, 1};
+            addSquare(20, {0, 0, 0}, {0, 1, 0});
+            environment::Environment sky{layout, is_cube ? kRows : 2 * kRows, kRows, {}};
+            for (size_t i = 0; i < size_t{sky.panelCount()} * sky.width * sky.height; ++i)
+                sky.texels.push_back(Float3{1, 1, 1} * (0.3f + 0.01f * static_cast<float>(i % 97)));
+            const Double3 sun = normalize(Double3{-0.5, 0.6, -0.3});
+            sky.texels[findTexel(sky, {sun.x, sun.y, sun.z})] = {80, 80, 80};
+            SceneLighting lighting = scene().lighting();
+            lighting.lights.clear();
+            lighting.sky_map = std::make_shared<SkyMap>(sky);
+            scene_->setLighting(lighting);
+
+            const Float3 eye{1, 0.7f, 0.5f};
+            const Double3 view = normalize(Double3(eye));
+            const auto floor = scene().nearest({Double3(eye), -view, 0, 1e30}, 0);
+            ASSERT_TRUE(floor.has_value());
+            constexpr uint32_t kParts = 4;
+            double sum = 0, total_density = 0;
+            for (uint32_t panel = 0; panel < sky.panelCount(); ++panel)
+                for (uint32_t y = 0; y < kParts * sky.height; ++y)
+                    for (uint32_t x = 0; x < kParts * sky.width; ++x)
+                    {
+                        const environment::Environment fine{
+                            layout, kParts * sky.width, kParts * sky.height, {}};
+                        const environment::PanelArea area = fine.area(x, y);
+                        const auto d = panelDirection(layout, panel,
+                                                      {0.5 * (area.u0 + area.u1), 0.5 * (area.v0 + area.v1)});
+                        const Double3 direction{d.x, d.y, d.z};
+                        const double solid_angle = panelSolidAngle(layout, area);
+                        total_density += lighting.sky_map->density(direction) * solid_angle;
+                        if (direction.y > 0)
+                            sum += double{sky.texels[sky.index(panel, x / kParts, y / kParts)].y} *
+                                   reflected(floor->coating, view, direction).y * solid_angle;
+                    }
+            EXPECT_NEAR(total_density, 1, 0.01);
+            const double traced = look(eye, {0, 0, 0}, {.samples = 4096, .max_bounces = 1}).y;
+            EXPECT_NEAR(traced, sum, 0.01 * sum);
+        }
+}
+
 /// Walls of a closed box that are white and shine with radiance 1 add 1 with each bounce.
 TEST_F(PathTracerTest, addsUpInAFurnace)
 {

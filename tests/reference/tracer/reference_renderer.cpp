@@ -2,6 +2,7 @@
 #include "tests/reference/tracer/reference_renderer.h"
 
 #include "tests/reference/tracer/camera_rays.h"
+#include "tests/reference/tracer/path_tracer.h"
 
 #include <tbb/parallel_for.h>
 
@@ -61,11 +62,39 @@ private:
 
 } // namespace
 
+namespace
+{
+
+/// Trace an image by paths. Returns display-linear colours.
+std::vector<Double3> tracePathColors(const PackGeometry& geometry, const TextureSet& textures,
+                                     const ReferenceOptions& options)
+{
+    ShadedScene scene(geometry, textures, options.pose);
+    if (options.sky_map != nullptr)
+    {
+        SceneLighting lighting = scene.lighting();
+        lighting.sky_map = options.sky_map;
+        scene.setLighting(std::move(lighting));
+    }
+    std::vector<Double3> colors = tracePaths(scene, {.camera = options.camera,
+                                                     .width = options.width,
+                                                     .height = options.height,
+                                                     .samples = options.paths});
+    for (Double3& color : colors)
+        color = {filmic(color.x), filmic(color.y), filmic(color.z)};
+    return colors;
+}
+
+} // namespace
+
 Result<Image> renderReference(const PackView& view, const ReferenceOptions& options)
 {
     HEARTH_ASSIGN_OR_RETURN(const PackGeometry geometry, PackGeometry::decode(view));
     HEARTH_ASSIGN_OR_RETURN(const TextureSet textures, TextureSet::load(view));
     const ReferenceRenderer renderer(geometry, textures, options);
+    std::vector<Double3> traced;
+    if (options.paths > 0)
+        traced = tracePathColors(geometry, textures, options);
     Image image(options.width, options.height);
     tbb::parallel_for(
         0u, options.height,
@@ -73,7 +102,8 @@ Result<Image> renderReference(const PackView& view, const ReferenceOptions& opti
         {
             for (uint32_t x = 0; x < options.width; ++x)
             {
-                const Double3 c = renderer.pixel(x, y);
+                const Double3 c =
+                    traced.empty() ? renderer.pixel(x, y) : traced[size_t{y} * options.width + x];
                 uint8_t* const out = image.at(x, y);
                 const double rgb[3] = {c.x, c.y, c.z};
                 for (size_t i = 0; i < 3; ++i)

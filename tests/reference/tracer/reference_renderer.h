@@ -21,6 +21,10 @@ struct ReferenceOptions
     uint32_t samples_per_side = 4; ///< the number of rays per pixel is its square
     bool shadows = false;          ///< of the lights, as with hearth-render --shadows
     SkyTracing sky = {};           ///< sky occlusion; its `shadows` is replaced by the one above
+    /// Paths of each pixel, with all that they meet, in place of the rays above; 0: no paths. The sky of an
+    /// image needs them.
+    uint32_t paths = 0;
+    std::shared_ptr<const SkyMap> sky_map{}; ///< in place of the pack's sky, with paths
 };
 
 /// errors: as for reading pages and images.

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/reference/tracer/scene_lighting.h"
 
+#include "formats/base/assert.h"
 #include "formats/gpu_shared/shading.h"
 #include "formats/scene/light_flicker.h"
+#include "formats/texels/shared_exponent.h"
 
 #include <algorithm>
 #include <array>
@@ -119,6 +121,26 @@ Double3 integrateSky(const SceneLighting& lighting, double height, double cos_ha
     return sum / weights;
 }
 
+/// Return the sky that the camera sees, if a pack has one.
+std::shared_ptr<const SkyMap> readSkyMap(const PackView& view)
+{
+    for (const ProbeRecord& probe : view.probes())
+    {
+        if ((probe.flags & kProbeIsSky) == 0)
+            continue;
+        const uint32_t side = probe.face_size << probe.sharp_mips;
+        environment::Environment cube{environment::Layout::cube, side, side, {}};
+        for (size_t i = 0; i < size_t{6} * side * side; ++i)
+        {
+            const std::array<float, 3> color =
+                decodeSharedExponent(view.probeTexels()[probe.texels.first + i]);
+            cube.texels.push_back(Float3{color[0], color[1], color[2]} * probe.irradiance_luminance);
+        }
+        return std::make_shared<SkyMap>(std::move(cube));
+    }
+    return nullptr;
+}
+
 } // namespace
 
 Incident SceneLight::at(Double3 point) const
@@ -142,17 +164,21 @@ Incident SceneLight::at(Double3 point) const
 
 Double3 SceneLighting::radiance(Double3 direction) const
 {
+    if (sky_map != nullptr)
+        return sky_map->radiance(direction);
     const Double3 above = mixed(horizon, zenith, smooth(-0.2, 1, direction.y));
     return mixed(ground, above, smooth(-0.296, 0.296, direction.y));
 }
 
 Double3 SceneLighting::irradiance(Double3 normal) const
 {
+    HEARTH_ASSERT(sky_map == nullptr);
     return integrateSky(*this, normal.y, 0, [](double cosine) { return cosine; });
 }
 
 Double3 SceneLighting::coneRadiance(Double3 axis, double cos_half_angle) const
 {
+    HEARTH_ASSERT(sky_map == nullptr);
     return integrateSky(*this, axis.y, cos_half_angle, [](double) { return 1.0; });
 }
 
@@ -162,7 +188,8 @@ SceneLighting readLighting(const PackView& view, std::optional<double> flicker_s
         Double3(shared::kSkyZenith), Double3(shared::kSkyHorizon), Double3(shared::kSkyGround), {}, 1};
     for (const LightRecord& record : view.lights())
         lighting.lights.push_back(makeLight(record));
-    if (lighting.lights.empty())
+    lighting.sky_map = readSkyMap(view);
+    if (lighting.lights.empty() && lighting.sky_map == nullptr)
         lighting.lights.push_back({LightType::directional,
                                    {},
                                    normalize(Double3(shared::kSunDirection)),
@@ -170,7 +197,7 @@ SceneLighting readLighting(const PackView& view, std::optional<double> flicker_s
                                    0,
                                    1,
                                    0});
-    else
+    else if (!lighting.lights.empty())
         lighting.exposure = expose(view, lighting.lights);
     if (flicker_seconds)
         for (size_t i = 0; i < view.lights().size(); ++i)

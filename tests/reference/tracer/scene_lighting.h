@@ -4,7 +4,9 @@
 
 #include "formats/pack/pack_view.h"
 #include "tests/reference/double3.h"
+#include "tests/reference/tracer/sky_map.h"
 
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -36,7 +38,8 @@ struct SceneLighting
 {
     Double3 zenith, horizon, ground;
     std::vector<SceneLight> lights;
-    double exposure = 1; ///< of emission; the intensities of lights have it already
+    double exposure = 1;                     ///< of emission; the intensities of lights have it already
+    std::shared_ptr<const SkyMap> sky_map{}; ///< in place of the three colours; for paths alone
 
     /// Radiance of the sky from a direction.
     Double3 radiance(Double3 direction) const;
@@ -46,6 +49,7 @@ struct SceneLighting
     Double3 coneRadiance(Double3 axis, double cos_half_angle) const;
 };
 
+/// Read the lights, and the sky: if the pack has the probe of one, the cube that the camera sees.
 /// flicker_seconds  time of the lights' flicker, which exposure does not follow; none: they are steady
 SceneLighting readLighting(const formats::PackView& view, std::optional<double> flicker_seconds = {});
 

@@ -1,0 +1,166 @@
+// Draws metal and paint under the sky of an image, beside paths under the image itself.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/probes/probe.h"
+#include "pipelines/environments/read_environment.h"
+#include "tests/environments/environments.h"
+#include "tests/reference/flip.h"
+#include "tests/reference/tracer/path_tracer.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/lit_scene.h"
+#include "tests/support/shapes.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+using environment::Environment;
+using environment::Layout;
+
+constexpr uint32_t kSide = 64;    ///< of an image, in pixels
+constexpr uint32_t kPaths = 4096;  ///< of each pixel
+constexpr float kApart = 40;      ///< metres between balls, so that none sees another
+constexpr double kMaxFlip = 0.03; ///< mean of an image
+
+struct Ball
+{
+    const char* name;
+    float metallic, roughness;
+};
+constexpr Ball kBalls[] = {{"metal, .05", 1, 0.05f}, {"metal, .25", 1, 0.25f}, {"metal, .5", 1, 0.5f},
+                           {"metal, .8", 1, 0.8f},   {"metal, 1", 1, 1},       {"paint, .2", 0, 0.2f},
+                           {"paint, .9", 0, 0.9f}};
+
+struct NamedSky
+{
+    std::string name;
+    Environment image;
+};
+
+/// Blue above a warm horizon over dark ground, with a sun of three degrees that gives half of the light.
+Float3 makeDay(Double3 d)
+{
+    const Double3 sun{0.48, 0.6, 0.64};
+    if (dot(d, sun) > std::cos(0.026))
+        return {1500, 1350, 1100};
+    const auto height = static_cast<float>(d.y);
+    return height < 0 ? Float3{0.12f, 0.1f, 0.08f}
+                      : Float3{0.9f - 0.7f * height, 0.8f - 0.4f * height, 0.7f + 0.3f * height};
+}
+
+/// Return environments of the tests' own, and real ones where the assets are.
+std::vector<NamedSky> listSkies()
+{
+    std::vector<NamedSky> skies{{"day", makeEnvironment(Layout::lat_long, 256, makeDay)},
+                                {"noise", makeNoise(Layout::cube, 32, 3)}};
+    if (const char* assets = std::getenv("HEARTH_ASSETS"))
+        for (const char* name : {"env-hdr/hdr_venice_sunset_1k/venice_sunset_1k.hdr",
+                                 "env-exr/exr_forest/forest.exr", "env-exr/exr_night/night.exr"})
+            skies.push_back(
+                {name, environments::readEnvironment(std::string(assets) + "/good/" + name).value()});
+    return skies;
+}
+
+class EnvironmentImageTest : public GpuTest
+{
+protected:
+    /// Make a scene with all balls under a sky.
+    formats::PackView build(const Environment& sky)
+    {
+        mesh::SourceMesh ball = shapes::rock(24, 0);
+        for (Float3& p : ball.positions)
+            p = normalizeOr(p, {});
+        ball.normals = ball.positions;
+        for (size_t i = 0; i < std::size(kBalls); ++i)
+        {
+            formats::MaterialRecord material = plainMaterial();
+            material.base_color = {0.9f, 0.75f, 0.5f, 1};
+            material.metallic = kBalls[i].metallic;
+            material.roughness = kBalls[i].roughness;
+            test_.addInstance(test_.addMesh(withMaterial(ball, test_.addMaterial(material))),
+                              translated({kApart * static_cast<float>(i), 0, 0}));
+        }
+        probes::Probe probe = probes::cookProbe(sky, "sky", probes::kProbeSide, 512).value();
+        probe.record.flags = formats::kProbeIsSky;
+        test_.model().probes = {probe.record};
+        test_.model().probe_texels = probe.texels;
+        return test_.build();
+    }
+
+    static shared::Camera look(size_t ball)
+    {
+        const float x = kApart * static_cast<float>(ball);
+        return {.position = {x + 1.6f, 0.7f, 2.6f}, .target = {x, 0, 0}, .y_fov_rad = 0.9f, .z_near = 0.05f};
+    }
+
+    static reference::Image trace(const reference::ShadedScene& scene, size_t ball)
+    {
+        const auto radiance = reference::tracePaths(
+            scene, {.camera = look(ball), .width = kSide, .height = kSide, .samples = kPaths, .max_bounces = 2});
+        reference::Image image(kSide, kSide);
+        for (uint32_t i = 0; i < kSide * kSide; ++i)
+        {
+            const double rgb[] = {radiance[i].x, radiance[i].y, radiance[i].z};
+            for (size_t c = 0; c < 3; ++c)
+                image.at(i % kSide, i / kSide)[c] = static_cast<uint8_t>(
+                    std::clamp(reference::srgbFromLinear(reference::filmic(rgb[c])), 0.0, 1.0) * 255 + 0.5);
+        }
+        return image;
+    }
+
+    static reference::Image convert(const Image& drawn)
+    {
+        reference::Image image(kSide, kSide);
+        for (uint32_t i = 0; i < kSide * kSide; ++i)
+            for (int c = 0; c < 3; ++c)
+                image.at(i % kSide, i / kSide)[c] = static_cast<uint8_t>(channel(drawn.color[i], c));
+        return image;
+    }
+
+    TestScene test_;
+};
+
+TEST_F(EnvironmentImageTest, ballsLookAsPathsShowThem)
+{
+    for (NamedSky& sky : listSkies())
+    {
+        SCOPED_TRACE(sky.name);
+        test_ = {};
+        const formats::PackView pack = build(sky.image);
+        const reference::PackGeometry geometry = reference::PackGeometry::decode(pack).value();
+        const reference::TextureSet textures = reference::TextureSet::load(pack).value();
+        reference::ShadedScene traced_scene(geometry, textures, nullptr);
+        reference::SceneLighting lighting = traced_scene.lighting();
+        EXPECT_TRUE(lighting.lights.empty());
+        lighting.sky_map = std::make_shared<reference::SkyMap>(std::move(sky.image));
+        traced_scene.setLighting(std::move(lighting));
+        const auto scene = upload(pack);
+        double sum = 0;
+        for (size_t i = 0; i < std::size(kBalls); ++i)
+        {
+            const reference::Image drawn = convert(draw(*scene, look(i), {.width = kSide, .height = kSide}));
+            const reference::Image traced = trace(traced_scene, i);
+            const double difference = reference::flip(traced, drawn).mean();
+            std::printf("%s, %s: FLIP %.4f\n", sky.name.c_str(), kBalls[i].name, difference);
+            EXPECT_LE(difference, kMaxFlip) << kBalls[i].name;
+            sum += difference;
+            if (const char* folder = std::getenv("HEARTH_TEST_IMAGES"))
+            {
+                const std::string name = std::string(folder) + "/" +
+                                         sky.name.substr(sky.name.rfind('/') + 1) + "-" + std::to_string(i);
+                EXPECT_TRUE(reference::writePng(name + "-drawn.png", drawn).ok());
+                EXPECT_TRUE(reference::writePng(name + "-traced.png", traced).ok());
+            }
+        }
+        std::printf("%s: mean FLIP %.4f\n", sky.name.c_str(), sum / std::size(kBalls));
+    }
+}
+
+} // namespace
+
+} // namespace hearth::test
