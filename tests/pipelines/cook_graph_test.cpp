@@ -111,6 +111,19 @@ TEST(CookGraph, readsTheFileOfASetting)
     EXPECT_EQ(makeCookGraph(settings)->actions.size(), graph.actions.size() - 1);
 }
 
+TEST(CookGraph, lightsBricksByTheProbeOfTheSky)
+{
+    CookSettings settings;
+    settings.sources = {"a.obj"};
+    settings.output = "out.hearth";
+    settings.values_of_pack = {{"environment.file", {"\"noon.hdr\"", ""}}};
+    settings.values_of_source.assign(1, {{"visibility.mode", {"\"off\"", ""}}});
+    const std::vector<Words> commands = getCommands(makeCookGraph(settings).value());
+    EXPECT_EQ(commands.at(commands.size() - 2),
+              (Words{"bin/hearth-bricks", "{import.part}", "{clusters.part}", "{textures.part}", "--probe",
+                     "{probe.part}", "-o", "{bricks.part}", "--if-needed", "--stats", "{bricks.json}"}));
+}
+
 TEST(CookGraph, passesSettingsToEveryCooker)
 {
     const std::vector<Words> commands = getCommands(makeCookGraph(allSettings()).value());

@@ -187,6 +187,7 @@ TEST_F(Keys, everySettingChangesThoseOfItsCookerAndItsReaders)
         {"textures", {"textures", "estimates", "budget", "texels", "bricks", "link"}},
         {"texels", {"estimates", "budget", "texels", "link"}},
         {"visibility", {"visibility", "link"}},
+        {"probe", {"probe", "bricks", "link"}},
         {"bricks", {"bricks", "link"}}};
     for (const cookers::Cooker& cooker : cookers::allCookers())
         for (const settings::Setting& setting : cooker.settings)
@@ -222,7 +223,7 @@ TEST_F(Keys, flagsAddTheirCookers)
     EXPECT_EQ(changed(before, keys(other)), (std::set<std::string>{"bricks", "link"}));
     other = settings;
     other.values_of_pack["environment.file"].text = "\"off\"";
-    EXPECT_EQ(changed(before, keys(other)), (std::set<std::string>{"probe", "link"}));
+    EXPECT_EQ(changed(before, keys(other)), (std::set<std::string>{"probe", "bricks", "link"}));
     other = settings;
     other.values_of_pack.erase("textures.budget");
     EXPECT_EQ(changed(before, keys(other)), (std::set<std::string>{"estimates", "budget", "link"}));
@@ -242,7 +243,7 @@ TEST_F(Keys, everyFileChangesThem)
     EXPECT_EQ(changed(before, keys(settings)), (std::set<std::string>{"skinning", "link"}));
     folder.write("hearth-skinning", "skinning", true);
     folder.write("sky.hdr", "another sky");
-    EXPECT_EQ(changed(before, keys(settings)), (std::set<std::string>{"probe", "link"}));
+    EXPECT_EQ(changed(before, keys(settings)), (std::set<std::string>{"probe", "bricks", "link"}));
     fs::rename(folder / "wood.png", folder / "wool.png");
     folder.write("sky.hdr", "sky.hdr");
     EXPECT_EQ(changed(before, keys(settings)), kOfSource) << "a file that is gone";

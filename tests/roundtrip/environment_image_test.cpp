@@ -23,7 +23,7 @@ using environment::Environment;
 using environment::Layout;
 
 constexpr uint32_t kSide = 64;    ///< of an image, in pixels
-constexpr uint32_t kPaths = 4096;  ///< of each pixel
+constexpr uint32_t kPaths = 1024; ///< of each pixel
 constexpr float kApart = 40;      ///< metres between balls, so that none sees another
 constexpr double kMaxFlip = 0.03; ///< mean of an image
 
@@ -100,8 +100,12 @@ protected:
 
     static reference::Image trace(const reference::ShadedScene& scene, size_t ball)
     {
-        const auto radiance = reference::tracePaths(
-            scene, {.camera = look(ball), .width = kSide, .height = kSide, .samples = kPaths, .max_bounces = 2});
+        const auto radiance = reference::tracePaths(scene, {.camera = look(ball),
+                                                            .width = kSide,
+                                                            .height = kSide,
+                                                            .samples = kPaths,
+                                                            .through_centers = true,
+                                                            .max_bounces = 2});
         reference::Image image(kSide, kSide);
         for (uint32_t i = 0; i < kSide * kSide; ++i)
         {
