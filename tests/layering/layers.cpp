@@ -69,6 +69,7 @@ const std::vector<Layer>& layers()
          {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/texels/rules",
           "cook/texels/encoding", "cook/texels/search"}},
         {"cook/probes", {"formats", "cook/environment"}},
+        {"cook/receivers/select", {"formats"}},
         {"cook/estimates", {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/texels"}},
 
         {"cook/clusters/core", {"formats", "cook/mesh", "cook/animation_bounds"}},

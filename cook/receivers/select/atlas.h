@@ -1,0 +1,50 @@
+// Packs the light of an atlas of receivers: chooses the lamps of each texel, and gathers texels with the same
+// lamps in blocks, as parts and packs store them.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/receivers/select/select.h"
+#include "formats/records/receivers.h"
+
+#include <span>
+#include <vector>
+
+namespace hearth::receivers
+{
+
+/// Irradiance that was baked for each lamp apart.
+struct BakedLight
+{
+    uint32_t width = 0, height = 0;                     ///< of the atlas, 1 to shared::kMaxReceiverSide
+    std::span<const formats::ReceiverLampRecord> lamps; ///< rising; steady light is the first or absent
+    std::span<const formats::ReceiverRectRecord> rects; ///< by rising instance; they do not overlap
+    std::span<const uint8_t>
+        valid; ///< [width * height], row by row: 1 where a texel receives; 0 outside rects
+    std::span<const Float3> light; ///< [width * height][lamps]: with weight 1, finite and at least 0
+};
+
+struct AtlasOptions
+{
+    SelectOptions select;
+    formats::ReceiverCodec codec = formats::ReceiverCodec::rgb9e5;
+};
+
+/// Atlas as it is stored, and figures for a report.
+struct Atlas
+{
+    formats::ReceiverAtlasRecord record{};
+    std::vector<formats::ReceiverLampRecord> lamps;
+    std::vector<formats::ReceiverRectRecord> rects;
+    std::vector<formats::ReceiverBlockRecord> blocks;
+    std::vector<uint32_t> words;
+    uint64_t color_count = 0;   ///< of all texels
+    uint64_t triple_count = 0;  ///< records of three colours that all texels need
+    double largest_dropped = 0; ///< largest luminance of a lamp that a texel dropped, as a share of its sum
+
+    formats::ReceiverTables tables() const { return {record, lamps, rects, blocks, words}; }
+};
+
+/// Pack an atlas. Texels without light have no record. Always the same bytes.
+Atlas packAtlas(const BakedLight& baked, const AtlasOptions& options);
+
+} // namespace hearth::receivers
