@@ -155,6 +155,8 @@ Status checkAssets(const PackView& view);
 Status checkExtras(const PackView& view);
 Status checkSpecularTable(const PackView& view);
 Status checkProbeTables(const PackView& view);
+Status checkReceiverTables(const PackView& view);
+Status checkReceiverReferences(const PackView& view);
 Status checkSurroundings(const PackView& view);
 Status checkBrickTables(const PackView& view);
 

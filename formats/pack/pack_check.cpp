@@ -125,6 +125,11 @@ Status checkProbes(const PackView& view)
     return check::checkProbeTables(view);
 }
 
+Status checkReceivers(const PackView& view)
+{
+    return check::checkReceiverTables(view);
+}
+
 Status checkBricks(const PackView& view)
 {
     return check::checkBrickTables(view);
@@ -157,6 +162,8 @@ Status checkPackWith(const PackView& view, check::BulkData bulk, const CheckHier
     HEARTH_TRY(check::checkExtras(view));
     HEARTH_TRY(checkSpecular(view));
     HEARTH_TRY(checkProbes(view));
+    HEARTH_TRY(checkReceivers(view));
+    HEARTH_TRY(check::checkReceiverReferences(view));
     HEARTH_TRY(check::checkSurroundings(view));
     return checkBricks(view);
 }

@@ -58,6 +58,9 @@ Status checkSpecular(const PackView& view);
 /// Check only the probes: the contents of a probe part.
 Status checkProbes(const PackView& view);
 
+/// Check only the receivers: the contents of a receivers part. Lights and instances are in the import part.
+Status checkReceivers(const PackView& view);
+
 /// Check only the grid of bricks: the contents of a bricks part.
 Status checkBricks(const PackView& view);
 

@@ -14,6 +14,7 @@
 #include "formats/records/mesh.h"
 #include "formats/records/probe.h"
 #include "formats/records/provenance.h"
+#include "formats/records/receivers.h"
 #include "formats/records/scene.h"
 #include "formats/records/specular.h"
 #include "formats/records/surroundings.h"
@@ -353,6 +354,15 @@ public:
     std::span<const SpecularTableRecord> specularTables() const { return specular_tables_.records.span(); }
     std::span<const ProbeRecord> probes() const { return probes_.records.span(); }
     std::span<const uint32_t> probeTexels() const { return probe_texels_.records.span(); }
+    /// Return one atlas or none.
+    std::span<const ReceiverAtlasRecord> receiverAtlases() const { return receiver_atlases_.records.span(); }
+    /// Return all tables of receivers; without an atlas they are empty.
+    ReceiverTables receivers() const
+    {
+        return {receiverAtlases().empty() ? ReceiverAtlasRecord{} : receiverAtlases()[0],
+                receiver_lamps_.records.span(), receiver_rects_.records.span(),
+                receiver_blocks_.records.span(), receiver_words_.records.span()};
+    }
     /// Return the surroundings of each instance; empty if nothing is baked.
     std::span<const SurroundingsRecord> surroundings() const { return surroundings_.records.span(); }
     std::span<const RadianceTransferRecord> radianceTransfers() const
@@ -420,7 +430,8 @@ private:
                         material_layers_, images_, texture_pieces_, skins_, joints_, animations_, channels_,
                         keys_, key_bits_, morph_weights_, meshes_, levels_, groups_, clusters_, pages_,
                         page_parents_, authored_levels_, deformed_meshes_, deformed_clusters_,
-                        cluster_joints_, specular_tables_, probes_, probe_texels_, surroundings_,
+                        cluster_joints_, specular_tables_, probes_, probe_texels_, receiver_atlases_,
+                        receiver_lamps_, receiver_rects_, receiver_blocks_, receiver_words_, surroundings_,
                         radiance_transfers_, brick_grid_, brick_groups_, bricks_, brick_opacity_,
                         brick_albedo_, brick_normals_, brick_emission_, brick_lighting_, reflectors_);
     }
@@ -463,6 +474,11 @@ private:
     Table<SpecularTableRecord> specular_tables_{kChunkSpecular};
     Table<ProbeRecord> probes_{kChunkProbes};
     Table<uint32_t> probe_texels_{kChunkProbeTexels};
+    Table<ReceiverAtlasRecord> receiver_atlases_{kChunkReceivers};
+    Table<ReceiverLampRecord> receiver_lamps_{kChunkReceiverLamps};
+    Table<ReceiverRectRecord> receiver_rects_{kChunkReceiverRects};
+    Table<ReceiverBlockRecord> receiver_blocks_{kChunkReceiverBlocks};
+    Table<uint32_t> receiver_words_{kChunkReceiverWords};
     Table<SurroundingsRecord> surroundings_{kChunkSurroundings};
     Table<RadianceTransferRecord> radiance_transfers_{kChunkRadianceTransfers};
     Table<BrickGridRecord> brick_grid_{kChunkBrickGrid};

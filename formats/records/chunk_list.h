@@ -9,6 +9,7 @@
 #include "formats/records/mesh.h"
 #include "formats/records/probe.h"
 #include "formats/records/provenance.h"
+#include "formats/records/receivers.h"
 #include "formats/records/scene.h"
 #include "formats/records/specular.h"
 #include "formats/records/surroundings.h"
@@ -113,6 +114,16 @@ inline constexpr std::array kChunkList{
     makeTableInfo<ProbeRecord>(kChunkProbes, 1, ChunkPurpose::light, "light probes"),
     ChunkInfo{kChunkProbeTexels, 1, ChunkPurpose::light, "u32[]", false,
               "of all probes: RGB9E5 by mip, face, row and column"},
+    makeTableInfo<ReceiverAtlasRecord>(kChunkReceivers, 1, ChunkPurpose::light,
+                                       "the atlas of receivers, one at most"),
+    makeTableInfo<ReceiverLampRecord>(kChunkReceiverLamps, 1, ChunkPurpose::light,
+                                      "lamps that receivers weigh"),
+    makeTableInfo<ReceiverRectRecord>(kChunkReceiverRects, 1, ChunkPurpose::light,
+                                      "which part of the atlas an instance has"),
+    makeTableInfo<ReceiverBlockRecord>(kChunkReceiverBlocks, 1, ChunkPurpose::light,
+                                       "blocks of texels with the same lamps"),
+    ChunkInfo{kChunkReceiverWords, 1, ChunkPurpose::light, "u32[]", false,
+              "of all blocks: places, then colours"},
     makeTableInfo<SurroundingsRecord>(kChunkSurroundings, 1, ChunkPurpose::light,
                                       "surroundings of each instance"),
     makeTableInfo<RadianceTransferRecord>(kChunkRadianceTransfers, 1, ChunkPurpose::light,

@@ -18,6 +18,9 @@ inline constexpr uint32_t kChunkReceiverWords = fourCC("RCVW");  ///< u32[], of 
 /// Lamps of an atlas, at most: blocks name them by 16 bits.
 inline constexpr uint32_t kMaxReceiverLamps = 1u << 16;
 
+/// Least scale of an atlas, far above the least floats; the largest is its reciprocal.
+inline constexpr float kMinReceiverScale = 0x1p-100f;
+
 enum class ReceiverCodec : uint32_t
 {
     rgb9e5 = shared::kReceiverRgb9e5,

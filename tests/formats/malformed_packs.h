@@ -47,6 +47,9 @@ const std::vector<MalformedPack>& malformedSpecularTables();
 /// Invalid light probes.
 const std::vector<MalformedPack>& malformedProbes();
 
+/// Invalid receivers.
+const std::vector<MalformedPack>& malformedReceivers();
+
 /// Invalid surroundings of instances.
 const std::vector<MalformedPack>& malformedSurroundings();
 

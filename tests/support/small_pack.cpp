@@ -291,6 +291,18 @@ void addProbe(PackModel& pack)
     }
 }
 
+/// Atlas of 6 x 4 texels for two instances: two texels of group 0 and one of group 3, lit by three lamps.
+void addReceivers(PackModel& pack)
+{
+    const auto place = [](uint32_t x, uint32_t y) { return x | y << 14; };
+    pack.receiver_lamps = {{0, 0}, {1, 0}, {2, 1}};
+    pack.receiver_rects = {{0, 0, 0, 3, 4}, {1, 4, 0, 2, 2}};
+    pack.receiver_blocks = {{0, 2, 2, 0, {1u << 16, 0, 0, 0, 0, 0}}, {6, 1, 3, 3, {1u << 16, 2, 0, 0, 0, 0}}};
+    pack.receiver_words = {place(0, 0), place(2, 2), 15u << 27 | 256, 15u << 27 | 128, 14u << 27 | 300,
+                           0,           place(5, 1), 15u << 27,       16u << 27 | 511, 20u << 27 | 256 << 9};
+    pack.receiver_atlases = {{6, 4, 0, 0.5f, 3, 2, 2, 10, 3, {1, 0, 0, 1}, {}}};
+}
+
 /// Light of occluders at the last instance; the visibility of others is that of their mesh.
 void addSurroundings(PackModel& pack)
 {
@@ -643,6 +655,11 @@ std::vector<ChunkImage> PackModel::chunks(bool compressed) const
     table(kChunkSpecular, specular_tables);
     table(kChunkProbes, probes);
     table(kChunkProbeTexels, probe_texels);
+    table(kChunkReceivers, receiver_atlases);
+    table(kChunkReceiverLamps, receiver_lamps);
+    table(kChunkReceiverRects, receiver_rects);
+    table(kChunkReceiverBlocks, receiver_blocks);
+    table(kChunkReceiverWords, receiver_words);
     table(kChunkSurroundings, surroundings);
     table(kChunkRadianceTransfers, radiance_transfers);
     table(kChunkBrickGrid, brick_grids);
@@ -675,6 +692,7 @@ PackModel smallPack()
     addBounds(pack);
     addSpecularTable(pack);
     addProbe(pack);
+    addReceivers(pack);
     addSurroundings(pack);
     addBricks(pack);
     addAsset(pack);

@@ -8,6 +8,7 @@
 #include "formats/records/mesh.h"
 #include "formats/records/probe.h"
 #include "formats/records/provenance.h"
+#include "formats/records/receivers.h"
 #include "formats/records/scene.h"
 #include "formats/records/specular.h"
 #include "formats/records/surroundings.h"
@@ -60,6 +61,11 @@ struct PackModel
     std::vector<formats::SpecularTableRecord> specular_tables;
     std::vector<formats::ProbeRecord> probes;
     std::vector<uint32_t> probe_texels;
+    std::vector<formats::ReceiverAtlasRecord> receiver_atlases;
+    std::vector<formats::ReceiverLampRecord> receiver_lamps;
+    std::vector<formats::ReceiverRectRecord> receiver_rects;
+    std::vector<formats::ReceiverBlockRecord> receiver_blocks;
+    std::vector<uint32_t> receiver_words;
     std::vector<formats::SurroundingsRecord> surroundings;
     std::vector<formats::RadianceTransferRecord> radiance_transfers;
     std::vector<uint32_t> instance_meshes; ///< parts only

@@ -109,8 +109,8 @@ float chooseScale(double largest, ReceiverCodec codec)
     if (largest == 0)
         return 1;
     const int exponent = static_cast<int>(std::ceil(std::log2(largest / limit)));
-    // the least floats are denormal, and runtimes may not multiply by them
-    return static_cast<float>(std::ldexp(1.0, std::clamp(exponent, -100, 100)));
+    return std::clamp(static_cast<float>(std::ldexp(1.0, std::min(exponent, 127))),
+                      formats::kMinReceiverScale, 1 / formats::kMinReceiverScale);
 }
 
 uint32_t encodeColor(Float3 color, float scale, ReceiverCodec codec)
