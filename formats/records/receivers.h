@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/gpu_shared/receivers.h"
+#include "formats/gpu_shared/receivers/receivers.h"
 #include "formats/records/container.h"
 
 namespace hearth::formats

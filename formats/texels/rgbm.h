@@ -1,6 +1,6 @@
 // Colours of four bytes: the square roots of three channels as fractions of a fourth, their common factor.
-// Source: X. Guo and T. Li, "Practical High-Performance Rendering on Mobile Platforms", GDC 2023: (6 q m)^2, from 0
-// to 36.
+// Source: X. Guo and T. Li, "Practical High-Performance Rendering on Mobile Platforms", GDC 2023:
+// (6 q m)^2, from 0 to 36.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

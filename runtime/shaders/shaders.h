@@ -44,6 +44,7 @@ extern const std::span<const uint32_t> cell_lights_comp;
 extern const std::span<const uint32_t> place_lists_comp;
 extern const std::span<const uint32_t> light_statistics_comp;
 extern const std::span<const uint32_t> light_faces_comp;
+extern const std::span<const uint32_t> receivers_update_comp;
 extern const std::span<const uint32_t> gather_points_comp;
 extern const std::span<const uint32_t> gather_rays_comp;
 extern const std::span<const uint32_t> gather_smooth_comp;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/gpu_shared/receivers.h"
+#include "formats/gpu_shared/receivers/receivers.h"
 #include "formats/texels/rgbm.h"
 #include "tests/support/sanitized.h"
 

@@ -30,6 +30,7 @@ const std::vector<Layer>& layers()
         // file formats
         {"formats/base", {}},
         {"formats/gpu_shared", {"formats/base"}},
+        {"formats/gpu_shared/receivers", {"formats/gpu_shared"}},
         {"formats/records", {"formats/base", "formats/gpu_shared"}},
         {"formats/texels", {"formats/base", "formats/records"}},
         {"formats/container", {"formats/base", "formats/records"}},
@@ -166,6 +167,7 @@ const std::vector<Layer>& layers()
         // shipped in a game
         {"runtime/frame", {"formats"}},
         {"runtime/pack", {"formats"}},
+        {"runtime/pack/receivers", {"formats"}},
         {"runtime/shaders", {}},
         {"runtime/shaders/scene", {"formats/gpu_shared"}},
         {"runtime/shaders/cull", {"formats/gpu_shared", "runtime/shaders/scene"}},
@@ -193,6 +195,7 @@ const std::vector<Layer>& layers()
           "runtime/gpu/textures", "runtime/gpu/scene", "runtime/gpu/post"}},
         {"runtime/gpu/light_passes",
          {"formats", "runtime/shaders", "runtime/gpu/scene", "runtime/gpu/passes"}},
+        {"runtime/gpu/receivers", {"formats", "runtime/shaders", "runtime/gpu/vulkan"}},
         {"runtime/gpu/statistics",
          {"formats", "runtime/shaders", "runtime/gpu/vulkan", "runtime/gpu/scene", "runtime/gpu/passes"}},
         {"runtime/gpu",

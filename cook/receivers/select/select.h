@@ -6,7 +6,7 @@
 #pragma once
 
 #include "formats/base/double3.h"
-#include "formats/gpu_shared/receivers.h"
+#include "formats/gpu_shared/receivers/receivers.h"
 
 #include <span>
 #include <vector>

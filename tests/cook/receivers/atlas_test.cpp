@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/receivers/select/atlas.h"
 #include "formats/texels/shared_exponent.h"
-#include "tests/support/random_receivers.h"
+#include "tests/cook/receivers/random_receivers.h"
 
 #include <gtest/gtest.h>
 

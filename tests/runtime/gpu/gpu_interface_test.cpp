@@ -1,6 +1,7 @@
 // Tests that shaders and C++ agree about everything that crosses between them: reflects every shader of the
 // renderer and compares it with the layouts, push constants, specialization constants and structs of C++.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/receivers/receiver_pass.h"
 #include "runtime/gpu/statistics/cull_statistics_pass.h"
 #include "runtime/gpu/statistics/light_statistics_pass.h"
 #include "runtime/viewer/vulkan_host.h"
@@ -78,6 +79,9 @@ protected:
             ASSERT_TRUE(deferred.ok());
             uploadAll(**deferred);
         }
+        const auto device = gpu::makeDevice(recording);
+        ASSERT_TRUE(device.ok());
+        EXPECT_TRUE(gpu::ReceiverPass::create(*device).ok());
         both_ = {{}, recordedPipelines(), sharedStructs(), constantIds()};
         for (const ListedShader& shader : listedShaders())
             both_.shaders.push_back({shader.name,

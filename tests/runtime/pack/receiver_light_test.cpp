@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/pack/receiver_light.h"
-#include "tests/support/random_receivers.h"
+#include "runtime/pack/receivers/receiver_light.h"
+#include "tests/cook/receivers/random_receivers.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/gpu_shared/receivers.h"
+#include "formats/gpu_shared/receivers/receivers.h"
 
 #include <array>
 #include <span>

@@ -25,6 +25,21 @@ HEARTH_CONSTANT uint kReceiverGroups = 4;
 HEARTH_CONSTANT uint kReceiverRgb9e5 = 0; ///< shared exponent, as texels of E5B9G9R9
 HEARTH_CONSTANT uint kReceiverRgbm = 1;   ///< bytes r, g, b, m: (6 r m)^2
 
+/// Set of the update, and its bindings.
+HEARTH_CONSTANT uint kSetReceivers = 0;
+HEARTH_CONSTANT uint kReceiversBlocks = 0;
+HEARTH_CONSTANT uint kReceiversWords = 1;
+HEARTH_CONSTANT uint kReceiversWeights = 2; ///< four floats for each lamp, the last unused
+HEARTH_CONSTANT uint kReceiversTexels = 3;
+
+/// Push constants of the update.
+struct ReceiversPush
+{
+    uint first_block;
+    uint first_weight;
+    uint codec; ///< kReceiverRgb9e5 or kReceiverRgbm
+};
+
 /// Up to 64 texels of one update group that the same lamps reach. Its words are the places of the texels,
 /// then the colours of the first lamp at each of them, those of the second, and so on.
 struct ReceiverBlock

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "formats/records/receivers.h"
-#include "runtime/pack/receiver_schedule.h"
+#include "runtime/pack/receivers/receiver_schedule.h"
 
 #include <vector>
 

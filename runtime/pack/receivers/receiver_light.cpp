@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/pack/receiver_light.h"
+#include "runtime/pack/receivers/receiver_light.h"
 
 #include "formats/base/assert.h"
 

@@ -4,7 +4,7 @@
 #include "cook/command_line/command_line.h"
 #include "cook/receivers/select/atlas.h"
 #include "formats/texels/shared_exponent.h"
-#include "runtime/pack/receiver_light.h"
+#include "runtime/pack/receivers/receiver_light.h"
 #include "tests/bench/aims.h"
 
 #include <algorithm>

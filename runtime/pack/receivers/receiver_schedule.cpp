@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/pack/receiver_schedule.h"
+#include "runtime/pack/receivers/receiver_schedule.h"
 
 #include "formats/base/assert.h"
 

@@ -1,0 +1,106 @@
+// Compares the update of receivers by the first graphics device with its twin on the CPU, by bytes.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/receivers/receiver_pass.h"
+
+#include "runtime/pack/receivers/receiver_light.h"
+#include "runtime/viewer/vulkan_host.h"
+#include "tests/cook/receivers/random_receivers.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+std::vector<Float3> randomWeights(size_t lamps, uint32_t seed)
+{
+    std::mt19937 random(seed);
+    std::uniform_real_distribution<float> unit(0, 2);
+    std::vector<Float3> weights(lamps, Float3{1, 1, 1});
+    for (size_t lamp = 1; lamp < lamps; ++lamp)
+        weights[lamp] = {unit(random), unit(random), unit(random) * 1e-3f};
+    return weights;
+}
+
+class ReceiverPassTest : public testing::Test
+{
+protected:
+    void SetUp() override
+    {
+        auto host = viewer::VulkanHost::create({.device_name = "", .validate = true});
+        ASSERT_TRUE(host.ok()) << formatMessage(host.error());
+        host_ = std::move(*host);
+        auto device = gpu::makeDevice(host_->description());
+        ASSERT_TRUE(device.ok());
+        device_ = std::move(*device);
+    }
+    void TearDown() override { EXPECT_TRUE(host_ == nullptr || host_->messages().empty()); }
+
+    /// Return the words after updates, one frame each, with weights of their own.
+    Result<std::vector<uint32_t>> update(const formats::ReceiverTables& tables,
+                                         std::span<const std::vector<Float3>> weights,
+                                         std::span<const uint32_t> groups)
+    {
+        HEARTH_ASSIGN_OR_RETURN(const gpu::ReceiverPass pass, gpu::ReceiverPass::create(device_));
+        std::optional<gpu::SceneReceivers> scene;
+        std::optional<gpu::Uploader> uploader;
+        const auto frames = static_cast<uint32_t>(groups.size());
+        HEARTH_TRY(host_->run(
+            [&](VkCommandBuffer commands) -> Status
+            {
+                uploader.emplace(device_, commands);
+                HEARTH_ASSIGN_OR_RETURN(scene, pass.upload(device_, tables, frames, *uploader));
+                uploader->finish();
+                for (uint32_t frame = 0; frame < frames; ++frame)
+                    pass.record(device_, commands, *scene, frame, weights[frame], groups[frame]);
+                return success();
+            }));
+        HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes,
+                                host_->readSampled(device_, scene->texels, sizeof(uint32_t)));
+        std::vector<uint32_t> words(bytes.size() / sizeof(uint32_t));
+        std::memcpy(words.data(), bytes.data(), bytes.size());
+        return words;
+    }
+
+    std::unique_ptr<viewer::VulkanHost> host_;
+    gpu::Device device_;
+};
+
+TEST_F(ReceiverPassTest, givesTheBytesOfTheCpu)
+{
+    const RandomReceivers random(150, 90, 13, 6);
+    for (const auto codec : {formats::ReceiverCodec::rgb9e5, formats::ReceiverCodec::rgbm})
+    {
+        receivers::AtlasOptions options;
+        options.codec = codec;
+        const receivers::Atlas atlas = receivers::packAtlas(random.baked(), options);
+        const std::vector<Float3> weights[] = {randomWeights(13, 1), randomWeights(13, 2),
+                                               randomWeights(13, 3)};
+        const uint32_t groups[] = {15, 9, 2}; // texels of group 2 keep the first weights
+        std::vector<uint32_t> texels(size_t{150} * 90);
+        for (size_t frame = 0; frame < 3; ++frame)
+            pack::updateReceivers(atlas.tables(), weights[frame], groups[frame], texels);
+        const auto words = update(atlas.tables(), weights, groups);
+        ASSERT_TRUE(words.ok()) << formatMessage(words.error());
+        EXPECT_EQ(*words, texels);
+    }
+}
+
+TEST_F(ReceiverPassTest, recordsNothingForNoGroup)
+{
+    const RandomReceivers random(16, 16, 4, 7);
+    const receivers::Atlas atlas = receivers::packAtlas(random.baked(), {});
+    const std::vector<Float3> weights[] = {randomWeights(4, 1)};
+    const uint32_t groups[] = {0};
+    const auto words = update(atlas.tables(), weights, groups);
+    ASSERT_TRUE(words.ok()) << formatMessage(words.error());
+    EXPECT_EQ(*words, std::vector<uint32_t>(256));
+}
+
+} // namespace
+
+} // namespace hearth::test
