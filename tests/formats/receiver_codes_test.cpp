@@ -140,6 +140,7 @@ TEST(ReceiverCodes, rgbmHoldsBlackAndAnyDarkness)
         EXPECT_TRUE(std::isfinite(decoded[0]));
         EXPECT_NEAR(std::sqrt(decoded[0]), std::sqrt(value), 1e-4) << value;
     }
+    EXPECT_EQ(formats::encodeRgbm({0, 0, 0}) >> 24, 1u);
     // a factor of 0 is no code of the encoder, and is black
     EXPECT_EQ(shared::decodeRgbmWord(0x00FFFFFF), (Float3{0, 0, 0}));
 }
