@@ -135,6 +135,23 @@ TEST(ReceiverLight, fourPartialUpdatesAreOneFullUpdateBitForBit)
     EXPECT_NE(updateAll(atlas, before), full);
 }
 
+TEST(ReceiverLight, partialUpdatesLeaveOtherTexelsAlone)
+{
+    const RandomReceivers scene(24, 16, 6, 8);
+    const receivers::Atlas atlas = receivers::packAtlas(scene.baked(), {});
+    const std::vector<uint32_t> before = updateAll(atlas, randomWeights(6, 1));
+    const std::vector<uint32_t> after = updateAll(atlas, randomWeights(6, 2));
+    std::vector<uint32_t> texels = before;
+    pack::updateReceivers(atlas.tables(), randomWeights(6, 2), 2, texels);
+    for (uint32_t y = 0; y < scene.height; ++y)
+        for (uint32_t x = 0; x < scene.width; ++x)
+        {
+            const size_t texel = y * scene.width + x;
+            const bool is_due = x % 2 == 1 && y % 2 == 0;
+            ASSERT_EQ(texels[texel], (is_due ? after : before)[texel]) << x << ", " << y;
+        }
+}
+
 TEST(ReceiverLight, slowFadesEndWithAllTexelsAtTheLastWeights)
 {
     const RandomReceivers scene(20, 20, 4, 5);
