@@ -27,7 +27,7 @@ double maxTexelError(ImageRole role)
 /// Return the step of a difference of 16-bit codes, rounded up.
 size_t findStep(uint32_t difference)
 {
-    return (size_t{difference} * (kErrorSteps - 1) + 65534) / 65535;
+    return (difference * static_cast<uint32_t>(kErrorSteps - 1) + 65534) / 65535;
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "formats/base/assert.h"
 #include "formats/base/double3.h"
 #include "formats/base/half.h"
+#include "formats/codecs/vector16.h"
 
 #include <algorithm>
 #include <bit>
@@ -39,6 +40,15 @@ DecodedTexel weightByAlpha(const DecodedTexel& texel)
 uint16_t difference(uint16_t a, uint16_t b)
 {
     return static_cast<uint16_t>(std::max(a, b) - std::min(a, b));
+}
+
+/// Eight numbers, of the channels of two texels.
+using Words = uint32_t __attribute__((vector_size(32)));
+
+/// Return the differences without their signs.
+Halves subtract(Halves a, Halves b)
+{
+    return a > b ? a - b : b - a;
 }
 
 double stops(uint16_t half)
@@ -82,23 +92,29 @@ template <typename Codes>
 void ErrorSum::addCodes(std::span<const DecodedTexel> plain, std::span<const DecodedTexel> stored,
                         const Codes& codes)
 {
-    // Halves of the squares are summed in 32 bits, which processors do for four channels at a time.
+    // Halves of the squares are summed in 32 bits, those of all channels of two texels at a time.
     constexpr size_t kMaxRun = 1u << 16;
+    using Pair = std::array<DecodedTexel, 2>;
     for (size_t begin = 0; begin < plain.size(); begin += kMaxRun)
     {
-        std::array<uint32_t, 4> low{}, high{};
-        for (size_t i = begin; i < std::min(begin + kMaxRun, plain.size()); ++i)
+        const size_t end = std::min(begin + kMaxRun, plain.size());
+        Words low{}, high{};
+        const auto addPair = [&](const Pair& a, const Pair& b)
         {
-            const DecodedTexel a = codes(plain[i]), b = codes(stored[i]);
-            for (uint32_t c = 0; c < 4; ++c)
-            {
-                const uint16_t d = difference(a[c], b[c]);
-                low[c] += static_cast<uint16_t>(uint32_t{d} * d);
-                high[c] += static_cast<uint16_t>(uint32_t{d} * d >> 16);
-            }
-        }
+            const Halves differences = subtract(std::bit_cast<Halves>(a), std::bit_cast<Halves>(b));
+            const Words wide = __builtin_convertvector(differences, Words);
+            const Words squares = wide * wide;
+            low += squares & 0xFFFF;
+            high += squares >> 16;
+        };
+        size_t i = begin;
+        for (; i + 1 < end; i += 2)
+            addPair(Pair{codes(plain[i]), codes(plain[i + 1])}, Pair{codes(stored[i]), codes(stored[i + 1])});
+        if (i < end)
+            addPair(Pair{codes(plain[i])}, Pair{codes(stored[i])});
         for (uint32_t c = 0; c < 4; ++c)
-            whole_[c] += has(channels_, c) ? low[c] + (uint64_t{high[c]} << 16) : 0;
+            if (has(channels_, c))
+                whole_[c] += uint64_t{low[c]} + low[c + 4] + ((uint64_t{high[c]} + high[c + 4]) << 16);
     }
 }
 
