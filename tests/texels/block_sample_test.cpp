@@ -61,7 +61,7 @@ Quality judgeEstimates(size_t count, const Expected& expected)
     for (size_t trial = 0; trial < count; ++trial)
     {
         const Blocks blocks = concentrateErrors(static_cast<uint32_t>(trial));
-        const std::vector<SampledBlock> sample = sampleBlocks(expected(blocks), kWanted);
+        const std::vector<SampledBlock> sample = BlockSampler(expected(blocks)).sample(kWanted);
         EXPECT_LE(sample.size(), kWanted);
         const double estimate = estimateSum(sample, blocks.errors);
         quality.mean += estimate / static_cast<double>(count);
@@ -87,7 +87,7 @@ TEST(BlockSample, estimatesAreUnbiasedWhereFewBlocksHaveTheError)
 TEST(BlockSample, whatIsProportionalToExpectationsIsExact)
 {
     const Blocks blocks = concentrateErrors(3);
-    const std::vector<SampledBlock> sample = sampleBlocks(blocks.expected, kWanted);
+    const std::vector<SampledBlock> sample = BlockSampler(blocks.expected).sample(kWanted);
     const std::vector<double> expected(blocks.expected.begin(), blocks.expected.end());
     EXPECT_NEAR(estimateSum(sample, expected), 1, 1e-9);
     for (size_t i = 0; i < sample.size(); ++i)
@@ -100,10 +100,10 @@ TEST(BlockSample, whatIsProportionalToExpectationsIsExact)
 TEST(BlockSample, allBlocksStandForThemselvesIfTheyAreFew)
 {
     const std::vector<float> expected{0.5f, 2, 0.25f};
-    EXPECT_EQ(sampleBlocks(expected, 3), (std::vector<SampledBlock>{{0, 1}, {1, 1}, {2, 1}}));
-    EXPECT_EQ(sampleBlocks(expected, 8).size(), 3u);
-    EXPECT_TRUE(sampleBlocks({}, 8).empty());
-    EXPECT_EQ(sampleBlocks(std::vector<float>{0, 3, 0}, 2), (std::vector<SampledBlock>{{1, 1}}));
+    EXPECT_EQ(BlockSampler(expected).sample(3), (std::vector<SampledBlock>{{0, 1}, {1, 1}, {2, 1}}));
+    EXPECT_EQ(BlockSampler(expected).sample(8).size(), 3u);
+    EXPECT_TRUE(BlockSampler({}).sample(8).empty());
+    EXPECT_EQ(BlockSampler(std::vector<float>{0, 3, 0}).sample(2), (std::vector<SampledBlock>{{1, 1}}));
 }
 
 } // namespace

@@ -183,6 +183,46 @@ TEST(TexelSearch, smoothAreasAreEncodedFinerThanLibastcencAloneWould)
     EXPECT_LE(error.error, alone.error);
 }
 
+TEST(TexelSearch, blocksOfAnEstimateAreThoseOfTheImage)
+{
+    // the right half is grain; no side is a multiple of a block's
+    const auto value = [random = std::mt19937(9)](uint32_t c, double x, double y) mutable
+    {
+        const double grain = static_cast<double>(random() & 0xFFFF) / 65535.0 - 0.5;
+        return c == 3 ? 1 : 0.5 + 0.1 * std::sin(3 * x + c) * std::cos(2 * y) + (x > 0.6 ? 0.5 * grain : 0);
+    };
+    const TestImage image = makeImage(150, 141, 2, TexelFormat::rgba8_srgb, value);
+    const PlainImage plain = image.plain(ImageRole::color, kRgb);
+    const ImageDetail detail(plain);
+    ASSERT_FALSE(detail.smooth.empty());
+    for (const Candidate& candidate : listCandidates(plain, {.astc = true, .etc2 = true, .bc = true}))
+    {
+        const TexelFormatTraits& traits = *candidate.traits;
+        // a few of each encoder: it takes longer to make contexts than to encode
+        if (traits.family == TexelFamily::plain ||
+            (traits.family == TexelFamily::astc && traits.block_height != 8))
+            continue;
+        const Effort effort = traits.block_width == 8 ? Effort::normal : Effort::draft;
+        ErrorEstimate estimate(plain, detail, candidate, effort);
+        estimate.refine();
+        std::vector<EncodedBlock> known = estimate.listBlocks();
+        ASSERT_GT(known.size(), 30u);
+        const std::vector<std::byte> encoded = encodeImage(plain, detail.smooth, candidate, effort);
+        EXPECT_EQ(encodeImage(plain, detail.smooth, candidate, effort, known), encoded) << traits.name;
+        // known blocks are taken as they are
+        std::vector<std::byte> changed = encoded;
+        for (EncodedBlock& block : known)
+        {
+            block.bytes.fill(std::byte{0x55});
+            const uint64_t mip_blocks = (150 + traits.block_width - 1u) / traits.block_width *
+                                        ((141 + traits.block_height - 1u) / traits.block_height);
+            const size_t at = (block.mip * mip_blocks + block.block) * traits.block_bytes;
+            std::fill_n(changed.begin() + static_cast<ptrdiff_t>(at), traits.block_bytes, std::byte{0x55});
+        }
+        EXPECT_EQ(encodeImage(plain, detail.smooth, candidate, effort, known), changed) << traits.name;
+    }
+}
+
 TEST(TexelSearch, onlyBlocksWhoseErrorsAreSeenAreSearchedLonger)
 {
     // no side is a multiple of a block's: the last ones reach over the edges

@@ -73,7 +73,7 @@ ContextKey makeKey(const Candidate& candidate, ImageRole role, Effort effort, fl
     ContextKey key{candidate.traits->block_width,
                    candidate.traits->block_height,
                    findProfile(candidate.traits->coding),
-                   0,
+                   ASTCENC_FLG_SELF_DECOMPRESS_ONLY, // tables of what it never encodes take long to make
                    findEffort(effort, role),
                    search_limit};
     if (role == ImageRole::normal)
@@ -217,8 +217,10 @@ StoredTexels stackBlocks(const StoredTexels& texels, const TexelFormatTraits& tr
                 std::span(texels.texels)
                     .subspan(std::min<size_t>(y, texels.height - 1) * texels.width, texels.width);
             const size_t left = block % columns * traits.block_width;
-            for (size_t x = left; x < left + traits.block_width; ++x)
-                stack.texels.push_back(row[std::min<size_t>(x, texels.width - 1)]);
+            const std::span<const DecodedTexel> part =
+                row.subspan(left, std::min<size_t>(traits.block_width, texels.width - left));
+            stack.texels.insert(stack.texels.end(), part.begin(), part.end());
+            stack.texels.insert(stack.texels.end(), traits.block_width - part.size(), row.back());
         }
     return stack;
 }
@@ -230,16 +232,20 @@ std::vector<std::byte> encodeAstc(const Candidate& candidate, const StoredTexels
     const TexelFormatTraits& traits = *candidate.traits;
     HEARTH_ASSERT(traits.family == TexelFamily::astc || traits.family == TexelFamily::astc_hdr);
     const float seen_limit = findSeenLimit(effort);
+    const std::vector<BlockSearch>& search = texels.search;
     std::vector<size_t> seen, hidden;
-    for (size_t block = 0; block < texels.is_seen.size(); ++block)
-        (texels.is_seen[block] != 0 && seen_limit > 0 ? seen : hidden).push_back(block);
-    if (seen.empty())
+    for (size_t block = 0; block < search.size(); ++block)
+        if (search[block] != BlockSearch::none)
+            (search[block] == BlockSearch::longer && seen_limit > 0 ? seen : hidden).push_back(block);
+    if (hidden.size() == search.size())
         return encodeAll(candidate, texels, effort, 0);
-    if (hidden.empty())
+    if (seen.size() == search.size())
         return encodeAll(candidate, texels, effort, seen_limit);
-    std::vector<std::byte> blocks(texels.is_seen.size() * traits.block_bytes);
+    std::vector<std::byte> blocks(search.size() * traits.block_bytes);
     const auto encodeSome = [&](std::span<const size_t> some, float search_limit)
     {
+        if (some.empty())
+            return;
         const std::vector<std::byte> encoded =
             encodeAll(candidate, stackBlocks(texels, traits, some), effort, search_limit);
         for (size_t i = 0; i < some.size(); ++i)

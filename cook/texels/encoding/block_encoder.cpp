@@ -116,6 +116,9 @@ std::vector<std::byte> encodeBlocks(const Candidate& candidate, const StoredTexe
     for (uint32_t y = 0; y < texels.height; y += kSide)
         for (uint32_t x = 0; x < texels.width; x += kSide, out += traits.block_bytes)
         {
+            const auto index = static_cast<size_t>(out - blocks.data()) / traits.block_bytes;
+            if (!texels.search.empty() && texels.search[index] == BlockSearch::none)
+                continue;
             const Block16 block = gatherBlock(texels, x, y);
             const std::span<std::byte> bytes(out, traits.block_bytes);
             if (traits.family == TexelFamily::bc)

@@ -69,38 +69,66 @@ void scaleAlpha(float scale, bool is_narrow, std::span<DecodedTexel> texels)
     }
 }
 
-/// Return, for each block of a stripe, whether its errors are seen.
-std::vector<uint8_t> findSeenBlocks(std::span<const SmoothCells> smooth, const TexelFormatTraits& traits,
-                                    const Stripe& stripe, uint32_t width)
+/// Return the known blocks of a stripe, with their places in it.
+std::vector<EncodedBlock> cutKnown(std::span<const EncodedBlock> known, const TexelFormatTraits& traits,
+                                   const Stripe& stripe, uint32_t width)
 {
-    std::vector<uint8_t> is_seen;
+    const uint64_t columns = (width + traits.block_width - 1u) / traits.block_width;
+    const uint64_t first = stripe.first_row / traits.block_height * columns;
+    const uint64_t end = first + stripe.bytes / traits.block_bytes;
+    std::vector<EncodedBlock> cut;
+    const auto isBefore = [](const EncodedBlock& a, const EncodedBlock& b)
+    { return a.mip != b.mip ? a.mip < b.mip : a.block < b.block; };
+    for (auto next = std::ranges::lower_bound(known, EncodedBlock{stripe.mip, first}, isBefore);
+         next != known.end() && next->mip == stripe.mip && next->block < end; ++next)
+        cut.push_back({stripe.mip, next->block - first, next->bytes});
+    return cut;
+}
+
+/// Return how long each block of a stripe is searched for; nothing if all are in the usual way.
+/// known  as cutKnown
+std::vector<BlockSearch> planSearch(std::span<const SmoothCells> smooth, std::span<const EncodedBlock> known,
+                                    const TexelFormatTraits& traits, const Stripe& stripe, uint32_t width)
+{
+    std::vector<BlockSearch> search;
+    if (smooth.empty() && known.empty())
+        return search;
     for (uint32_t y = stripe.first_row; y < stripe.first_row + stripe.rows; y += traits.block_height)
         for (uint32_t x = 0; x < width; x += traits.block_width)
-            is_seen.push_back(showsErrors(smooth, stripe.mip, x, y, traits));
-    return is_seen;
+            search.push_back(showsErrors(smooth, stripe.mip, x, y, traits) ? BlockSearch::longer
+                                                                           : BlockSearch::usual);
+    for (const EncodedBlock& block : known)
+        search[block.block] = BlockSearch::none;
+    return search;
 }
 
 std::vector<std::byte> encodeStripes(const PlainImage& image, std::span<const SmoothCells> smooth,
                                      const Candidate& candidate, Effort effort,
-                                     std::span<const Stripe> stripes, float alpha_scale)
+                                     std::span<const EncodedBlock> all_known, std::span<const Stripe> stripes,
+                                     float alpha_scale)
 {
+    const TexelFormatTraits& traits = *candidate.traits;
     std::vector<std::byte> encoded(stripes.back().first_byte + stripes.back().bytes);
-    tbb::parallel_for(
-        size_t{0}, stripes.size(),
-        [&](size_t i)
-        {
-            const Stripe& stripe = stripes[i];
-            const uint32_t width = mipExtent(image.record, stripe.mip).width;
-            std::vector<DecodedTexel> texels = decodeRows(image, stripe.mip, stripe.first_row, stripe.rows);
-            if (alpha_scale != 1)
-                scaleAlpha(alpha_scale, texelBytes(image.record.format) == 4, texels);
-            StoredTexels stored = arrangeChannels(image, candidate, width, stripe.rows, texels);
-            if (!smooth.empty())
-                stored.is_seen = findSeenBlocks(smooth, *candidate.traits, stripe, width);
-            const std::vector<std::byte> bytes = encodeTexels(candidate, stored, effort);
-            HEARTH_ASSERT(bytes.size() == stripe.bytes);
-            std::ranges::copy(bytes, encoded.begin() + static_cast<ptrdiff_t>(stripe.first_byte));
-        });
+    tbb::parallel_for(size_t{0}, stripes.size(),
+                      [&](size_t i)
+                      {
+                          const Stripe& stripe = stripes[i];
+                          const uint32_t width = mipExtent(image.record, stripe.mip).width;
+                          std::vector<DecodedTexel> texels =
+                              decodeRows(image, stripe.mip, stripe.first_row, stripe.rows);
+                          if (alpha_scale != 1)
+                              scaleAlpha(alpha_scale, texelBytes(image.record.format) == 4, texels);
+                          StoredTexels stored = arrangeChannels(image, candidate, width, stripe.rows, texels);
+                          const std::vector<EncodedBlock> known = cutKnown(all_known, traits, stripe, width);
+                          stored.search = planSearch(smooth, known, traits, stripe, width);
+                          const std::vector<std::byte> bytes = encodeTexels(candidate, stored, effort);
+                          HEARTH_ASSERT(bytes.size() == stripe.bytes);
+                          const auto place = encoded.begin() + static_cast<ptrdiff_t>(stripe.first_byte);
+                          std::ranges::copy(bytes, place);
+                          for (const EncodedBlock& block : known)
+                              std::copy_n(block.bytes.begin(), traits.block_bytes,
+                                          place + static_cast<ptrdiff_t>(block.block * traits.block_bytes));
+                      });
     return encoded;
 }
 
@@ -218,16 +246,17 @@ std::vector<std::byte> encodeTexels(const Candidate& candidate, const StoredTexe
 }
 
 std::vector<std::byte> encodeImage(const PlainImage& image, std::span<const SmoothCells> smooth,
-                                   const Candidate& candidate, Effort effort)
+                                   const Candidate& candidate, Effort effort,
+                                   std::span<const EncodedBlock> known)
 {
-    return encodeStripes(image, smooth, candidate, effort,
+    return encodeStripes(image, smooth, candidate, effort, known,
                          listStripes(image, *candidate.traits, 0, image.record.mip_count), 1);
 }
 
 std::vector<std::byte> encodeMip(const PlainImage& image, std::span<const SmoothCells> smooth,
                                  const Candidate& candidate, Effort effort, uint32_t mip, float alpha_scale)
 {
-    return encodeStripes(image, smooth, candidate, effort,
+    return encodeStripes(image, smooth, candidate, effort, {},
                          listStripes(image, *candidate.traits, mip, mip + 1), alpha_scale);
 }
 

@@ -8,12 +8,21 @@
 #include "cook/texels/encoding/smooth_cells.h"
 #include "cook/texels/encoding/texel_error.h"
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <vector>
 
 namespace hearth::texels
 {
+
+/// How long an encoder searches for the best bytes of a block.
+enum class BlockSearch : uint8_t
+{
+    usual,
+    longer, ///< errors of the block are seen
+    none,   ///< its bytes are known: they are not written
+};
 
 /// Texels of whole rows of blocks, in the channels that are stored, with what the encoder has to know of
 /// them.
@@ -23,8 +32,8 @@ struct StoredTexels
     uint32_t height = 0;
     std::vector<formats::DecodedTexel> texels{}; ///< rows from top to bottom
     formats::ImageRole role = formats::ImageRole::none;
-    bool is_narrow = true;          ///< all values are multiples of 257: 8 bits
-    std::vector<uint8_t> is_seen{}; ///< [block]: its errors are, so it is searched longer; empty: none is
+    bool is_narrow = true;             ///< all values are multiples of 257: 8 bits
+    std::vector<BlockSearch> search{}; ///< [block]; empty: usual
 };
 
 /// Return texels with the channels that a candidate stores.
@@ -38,10 +47,20 @@ void readStored(const Candidate& candidate, std::span<formats::DecodedTexel> tex
 /// returns  mipBytes(*candidate.traits, texels.width, texels.height)
 std::vector<std::byte> encodeTexels(const Candidate& candidate, const StoredTexels& texels, Effort effort);
 
+/// Block of an image with its bytes.
+struct EncodedBlock
+{
+    uint32_t mip = 0;
+    uint64_t block = 0;                ///< in rows from the top of the mip
+    std::array<std::byte, 16> bytes{}; ///< the first block_bytes of the format
+};
+
 /// Encode all mips, finest first, tightly packed. Same bytes for any number of threads.
 /// smooth  as findSmoothCells
+/// known   blocks that are encoded already, in the same way; ascending by mip and block
 std::vector<std::byte> encodeImage(const PlainImage& image, std::span<const SmoothCells> smooth,
-                                   const Candidate& candidate, Effort effort);
+                                   const Candidate& candidate, Effort effort,
+                                   std::span<const EncodedBlock> known = {});
 
 /// Encode one mip with its alpha multiplied by a scale. Same bytes for any number of threads.
 std::vector<std::byte> encodeMip(const PlainImage& image, std::span<const SmoothCells> smooth,

@@ -19,16 +19,26 @@ struct SampledBlock
     bool operator==(const SampledBlock&) const = default;
 };
 
-/// Choose blocks with chances that are proportional to what is expected of them. The sum of any quantity of
+/// Chooses blocks with chances that are proportional to what is expected of them. The sum of any quantity of
 /// the chosen blocks times their weights estimates its sum over all blocks without bias, and the better, the
 /// more the quantity is proportional to what was expected. Blocks with the largest expectations are all
 /// chosen.
 /// Source: Tille, "Sampling Algorithms", 2006, sections 5.6 (chances) and 7.1 (systematic choice), with one
 /// place in each step.
-/// expected  [block]: positive where the quantity may be
-/// wanted    number of blocks; those that are chosen twice make it less
-/// before    blocks that other samples have: the choice differs from theirs
-/// returns   ascending by block; the same for the same input
-std::vector<SampledBlock> sampleBlocks(std::span<const float> expected, size_t wanted, size_t before = 0);
+class BlockSampler
+{
+public:
+    /// expected  [block]: positive where the quantity may be; fewer than 2^32
+    explicit BlockSampler(std::span<const float> expected);
+
+    /// Return blocks, ascending; the same for the same input.
+    /// wanted  number of blocks; those that are chosen twice make it less
+    /// before  blocks that other samples have: the choice differs from theirs
+    std::vector<SampledBlock> sample(size_t wanted, size_t before = 0) const;
+
+private:
+    std::vector<uint32_t> blocks_{}; ///< those of which something is expected, the most first
+    std::vector<float> expected_{};  ///< [place in blocks_]
+};
 
 } // namespace hearth::texels

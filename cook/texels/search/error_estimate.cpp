@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/texels/search/error_estimate.h"
 
-#include "cook/texels/search/block_sample.h"
 #include "formats/texels/decode_texels.h"
 #include "formats/texels/plain_decoder.h"
 
@@ -34,111 +33,71 @@ struct MipBounds
 };
 constexpr MipBounds kFirstBounds{{32, 64}, {12, 16}}, kRefinedBounds{{64, 160}, {16, 40}};
 
-// Blocks in a row of the image that sampled blocks are put into.
-constexpr size_t kMosaicColumns = 32;
-
-/// Sampled block of a mip.
-struct MipBlock
+/// Part of a mip that a block covers.
+struct BlockArea
 {
     uint32_t mip;
-    uint64_t left, top; ///< first texel
-    double weight;
+    uint64_t left, top;             ///< first texel
+    uint64_t columns = 0, rows = 0; ///< of texels within the mip
 };
 
-/// Mosaic of sampled blocks side by side. Texels beyond the edge of the mip repeat the edge.
-struct Mosaic
+BlockArea findArea(const PlainImage& image, const TexelFormatTraits& traits, uint32_t mip, uint64_t block)
 {
-    uint32_t width = 0, height = 0;
-    std::vector<DecodedTexel> texels{};
-};
-
-/// Return where a block lies in the mosaic: its first texel, in rows of the mosaic.
-size_t findPlace(const Mosaic& mosaic, const TexelFormatTraits& traits, size_t index)
-{
-    const size_t across = mosaic.width / traits.block_width;
-    return index / across * traits.block_height * mosaic.width + index % across * traits.block_width;
+    const MipExtent extent = mipExtent(image.record, mip);
+    const uint64_t across = (extent.width + traits.block_width - 1u) / traits.block_width;
+    BlockArea area{
+        .mip = mip, .left = block % across * traits.block_width, .top = block / across * traits.block_height};
+    area.columns = std::min<uint64_t>(traits.block_width, extent.width - area.left);
+    area.rows = std::min<uint64_t>(traits.block_height, extent.height - area.top);
+    return area;
 }
 
-Mosaic makeMosaic(const PlainImage& image, const TexelFormatTraits& traits, std::span<const MipBlock> blocks)
+/// Append the texels of a block. Beyond the edge of the mip they repeat the edge.
+void appendTexels(const PlainImage& image, const TexelFormatTraits& traits, const BlockArea& area,
+                  std::vector<DecodedTexel>& texels)
 {
     const TexelFormatTraits& plain = *findTexelFormat(image.record.format);
-    const uint32_t bw = traits.block_width, bh = traits.block_height;
-    const size_t across = std::min(blocks.size(), kMosaicColumns);
-    const size_t rows = (blocks.size() + across - 1) / across;
-    Mosaic mosaic{.width = static_cast<uint32_t>(across) * bw, .height = static_cast<uint32_t>(rows) * bh};
-    mosaic.texels.resize(size_t{mosaic.width} * mosaic.height);
-    for (size_t i = 0; i < rows * across; ++i)
-    {
-        // the end of the last row is filled up
-        const MipBlock& block = blocks[std::min(i, blocks.size() - 1)];
-        const std::span<const std::byte> texels = mipBytes(image, block.mip);
-        const MipExtent extent = mipExtent(image.record, block.mip);
-        const size_t place = findPlace(mosaic, traits, i);
-        for (uint32_t y = 0; y < bh; ++y)
-            for (uint32_t x = 0; x < bw; ++x)
-            {
-                const uint64_t column = std::min<uint64_t>(block.left + x, extent.width - 1);
-                const uint64_t row = std::min<uint64_t>(block.top + y, extent.height - 1);
-                mosaic.texels[place + size_t{y} * mosaic.width + x] = decodePlainTexel(
-                    plain.format,
-                    texels.subspan((row * extent.width + column) * plain.block_bytes, plain.block_bytes));
-            }
-    }
-    return mosaic;
+    const std::span<const std::byte> bytes = mipBytes(image, area.mip);
+    const uint64_t width = mipExtent(image.record, area.mip).width;
+    for (uint64_t y = 0; y < traits.block_height; ++y)
+        for (uint64_t x = 0; x < traits.block_width; ++x)
+        {
+            const uint64_t column = area.left + std::min(x, area.columns - 1);
+            const uint64_t row = area.top + std::min(y, area.rows - 1);
+            texels.push_back(decodePlainTexel(
+                plain.format, bytes.subspan((row * width + column) * plain.block_bytes, plain.block_bytes)));
+        }
 }
 
-/// Return, for each block of a mosaic, whether its errors are seen.
-std::vector<uint8_t> findSeenBlocks(std::span<const SmoothCells> smooth, const TexelFormatTraits& traits,
-                                    std::span<const MipBlock> blocks, const Mosaic& mosaic)
+/// Add the sum of squares of texels.
+void addSquares(const ErrorSum& texels, std::array<double, 4>& sums)
 {
-    // what fills up the last row counts for nothing
-    std::vector<uint8_t> is_seen(size_t{mosaic.width / traits.block_width} *
-                                 (mosaic.height / traits.block_height));
-    for (size_t i = 0; i < blocks.size(); ++i)
-        is_seen[i] = showsErrors(smooth, blocks[i].mip, blocks[i].left, blocks[i].top, traits);
-    return is_seen;
-}
-
-void addWeighted(const ErrorSum& block, double weight, std::array<double, 4>& sums)
-{
-    if (block.count() == 0)
+    if (texels.count() == 0)
         return;
-    const std::array<double, 4> means = block.meanSquares();
+    const std::array<double, 4> means = texels.meanSquares();
     for (uint32_t c = 0; c < 4; ++c)
-        sums[c] += means[c] * (weight * static_cast<double>(block.count()));
+        sums[c] += means[c] * static_cast<double>(texels.count());
 }
 
-/// Encode sampled blocks and measure them; on the caller's thread, which has contexts of the encoder then.
-/// They take as long to make as a sample to encode.
-/// sums  [mip]
-void measureBlocks(const PlainImage& image, std::span<const SmoothCells> smooth, const Candidate& candidate,
-                   std::span<const MipBlock> blocks, Effort effort, std::span<SquareSums> sums)
+/// Return the sums of squares of a block's texels.
+/// plain, read  of the whole block, in rows from the top
+SquareSums sumSquares(const PlainImage& image, std::span<const SmoothCells> smooth,
+                      const TexelFormatTraits& traits, const BlockArea& area,
+                      std::span<const DecodedTexel> plain, std::span<const DecodedTexel> read)
 {
-    const TexelFormatTraits& traits = *candidate.traits;
-    const Mosaic mosaic = makeMosaic(image, traits, blocks);
-    StoredTexels arranged = arrangeChannels(image, candidate, mosaic.width, mosaic.height, mosaic.texels);
-    if (!smooth.empty())
-        arranged.is_seen = findSeenBlocks(smooth, traits, blocks, mosaic);
-    std::vector<DecodedTexel> read =
-        decodeMip(traits, mosaic.width, mosaic.height, encodeTexels(candidate, arranged, effort));
-    readStored(candidate, read);
-    for (size_t i = 0; i < blocks.size(); ++i)
-    {
-        const MipBlock& block = blocks[i];
-        const MipExtent extent = mipExtent(image.record, block.mip);
-        const size_t place = findPlace(mosaic, traits, i);
-        ErrorSum all(image.role, image.channels), smooth_sum = all;
-        for (uint64_t y = 0; y < std::min<uint64_t>(traits.block_height, extent.height - block.top); ++y)
-            for (uint64_t x = 0; x < std::min<uint64_t>(traits.block_width, extent.width - block.left); ++x)
-            {
-                const size_t at = place + y * mosaic.width + x;
-                all.add({&mosaic.texels[at], 1}, {&read[at], 1});
-                if (!smooth.empty() && smooth[block.mip].contains(block.left + x, block.top + y))
-                    smooth_sum.add({&mosaic.texels[at], 1}, {&read[at], 1});
-            }
-        addWeighted(all, block.weight, sums[block.mip].all);
-        addWeighted(smooth_sum, block.weight, sums[block.mip].smooth);
-    }
+    ErrorSum all(image.role, image.channels), smooth_sum = all;
+    for (uint64_t y = 0; y < area.rows; ++y)
+        for (uint64_t x = 0; x < area.columns; ++x)
+        {
+            const size_t at = y * traits.block_width + x;
+            all.add(plain.subspan(at, 1), read.subspan(at, 1));
+            if (!smooth.empty() && smooth[area.mip].contains(area.left + x, area.top + y))
+                smooth_sum.add(plain.subspan(at, 1), read.subspan(at, 1));
+        }
+    SquareSums sums;
+    addSquares(all, sums.all);
+    addSquares(smooth_sum, sums.smooth);
+    return sums;
 }
 
 /// Return, for each mip, the number of blocks that a sample within bounds has.
@@ -168,7 +127,11 @@ ErrorEstimate::ErrorEstimate(const PlainImage& image, const ImageDetail& detail,
       sampled_(detail.mips.size()),
       sums_(detail.mips.size())
 {
-    addSample(countWanted(image, detail, *candidate.traits, kFirstBounds));
+    const TexelFormatTraits& traits = *candidate.traits;
+    for (uint32_t mip = 0; mip < detail.mips.size(); ++mip)
+        samplers_.emplace_back(detail.mips[mip].expectErrors(
+            traits.block_width, traits.block_height, detail.smooth.empty() ? nullptr : &detail.smooth[mip]));
+    addSample(countWanted(image, detail, traits, kFirstBounds));
 }
 
 void ErrorEstimate::refine()
@@ -176,12 +139,55 @@ void ErrorEstimate::refine()
     addSample(countWanted(*image_, *detail_, *candidate_.traits, kRefinedBounds));
 }
 
+/// Encode blocks, one below the other, and measure them; on the caller's thread, which has contexts of the
+/// encoder then. They take as long to make as a sample to encode.
+void ErrorEstimate::measureBlocks(std::span<const BlockKey> blocks)
+{
+    if (blocks.empty())
+        return;
+    const TexelFormatTraits& traits = *candidate_.traits;
+    std::vector<BlockArea> areas;
+    std::vector<DecodedTexel> plain;
+    std::vector<BlockSearch> search;
+    for (const auto& [mip, block] : blocks)
+    {
+        const BlockArea& area = areas.emplace_back(findArea(*image_, traits, mip, block));
+        appendTexels(*image_, traits, area, plain);
+        search.push_back(showsErrors(detail_->smooth, mip, area.left, area.top, traits) ? BlockSearch::longer
+                                                                                        : BlockSearch::usual);
+    }
+    const uint32_t height = traits.block_height * static_cast<uint32_t>(blocks.size());
+    StoredTexels stored = arrangeChannels(*image_, candidate_, traits.block_width, height, plain);
+    stored.search = std::move(search);
+    const std::vector<std::byte> encoded = encodeTexels(candidate_, stored, effort_);
+    std::vector<DecodedTexel> read = decodeMip(traits, traits.block_width, height, encoded);
+    readStored(candidate_, read);
+    const size_t texels = plain.size() / blocks.size();
+    for (size_t i = 0; i < blocks.size(); ++i)
+    {
+        MeasuredBlock& measured = measured_[blocks[i]];
+        std::copy_n(encoded.begin() + static_cast<ptrdiff_t>(i * traits.block_bytes), traits.block_bytes,
+                    measured.bytes.begin());
+        measured.sums = sumSquares(*image_, detail_->smooth, traits, areas[i],
+                                   std::span(plain).subspan(i * texels, texels),
+                                   std::span(read).subspan(i * texels, texels));
+    }
+}
+
 /// Encode more blocks. The new estimate is the mean of the two, each as often as it has blocks.
 /// wanted  [mip]
 void ErrorEstimate::addSample(std::span<const size_t> wanted)
 {
-    const TexelFormatTraits& traits = *candidate_.traits;
-    std::vector<MipBlock> chosen;
+    std::vector<std::vector<SampledBlock>> samples;
+    std::vector<BlockKey> missing;
+    for (uint32_t mip = 0; mip < wanted.size(); ++mip)
+    {
+        samples.push_back(samplers_[mip].sample(wanted[mip], sampled_[mip]));
+        for (const SampledBlock& sampled : samples.back())
+            if (!measured_.contains({mip, sampled.block}))
+                missing.emplace_back(mip, sampled.block);
+    }
+    measureBlocks(missing);
     for (uint32_t mip = 0; mip < wanted.size(); ++mip)
     {
         const size_t all = sampled_[mip] + wanted[mip];
@@ -190,18 +196,23 @@ void ErrorEstimate::addSample(std::span<const size_t> wanted)
         {
             sums_[mip].all[c] *= old_share;
             sums_[mip].smooth[c] *= old_share;
+            for (const SampledBlock& sampled : samples[mip])
+            {
+                const SquareSums& block = measured_.at({mip, sampled.block}).sums;
+                sums_[mip].all[c] += block.all[c] * (sampled.weight * (1 - old_share));
+                sums_[mip].smooth[c] += block.smooth[c] * (sampled.weight * (1 - old_share));
+            }
         }
-        const std::vector<float> expected =
-            detail_->mips[mip].expectErrors(traits.block_width, traits.block_height,
-                                            detail_->smooth.empty() ? nullptr : &detail_->smooth[mip]);
-        const uint64_t columns =
-            (mipExtent(image_->record, mip).width + traits.block_width - 1u) / traits.block_width;
-        for (const SampledBlock& block : sampleBlocks(expected, wanted[mip], sampled_[mip]))
-            chosen.push_back({mip, block.block % columns * traits.block_width,
-                              block.block / columns * traits.block_height, block.weight * (1 - old_share)});
         sampled_[mip] = all;
     }
-    measureBlocks(*image_, detail_->smooth, candidate_, chosen, effort_, sums_);
+}
+
+std::vector<EncodedBlock> ErrorEstimate::listBlocks() const
+{
+    std::vector<EncodedBlock> blocks;
+    for (const auto& [key, measured] : measured_)
+        blocks.push_back({key.first, key.second, measured.bytes});
+    return blocks;
 }
 
 ImageError ErrorEstimate::error() const

@@ -3,12 +3,18 @@
 #pragma once
 
 #include "cook/texels/encoding/encode.h"
+#include "cook/texels/search/block_sample.h"
 #include "cook/texels/search/image_detail.h"
+
+#include <array>
+#include <map>
+#include <utility>
+#include <vector>
 
 namespace hearth::texels
 {
 
-/// Sums of squares of each channel, of all blocks of a mip that sampled ones stand for.
+/// Sums of squares of each channel, of all texels of something and of its smooth ones.
 struct SquareSums
 {
     std::array<double, 4> all{};
@@ -31,15 +37,29 @@ public:
     /// Return what is estimated of all texels and of the smooth ones, and 0 of the rest.
     ImageError error() const;
 
+    /// Return the blocks that were encoded, ascending by mip and block.
+    std::vector<EncodedBlock> listBlocks() const;
+
 private:
+    /// Block of the sample: its bytes, and sums of squares of its texels.
+    struct MeasuredBlock
+    {
+        std::array<std::byte, 16> bytes{};
+        SquareSums sums{};
+    };
+    using BlockKey = std::pair<uint32_t, uint64_t>; ///< mip and block in it
+
+    void measureBlocks(std::span<const BlockKey> blocks);
     void addSample(std::span<const size_t> wanted);
 
     const PlainImage* image_;
     const ImageDetail* detail_;
     Candidate candidate_;
     Effort effort_;
-    std::vector<size_t> sampled_;  ///< [mip]: blocks so far
-    std::vector<SquareSums> sums_; ///< [mip]
+    std::vector<BlockSampler> samplers_{}; ///< [mip]
+    std::vector<size_t> sampled_;          ///< [mip]: blocks so far
+    std::vector<SquareSums> sums_;         ///< [mip]
+    std::map<BlockKey, MeasuredBlock> measured_{};
 };
 
 } // namespace hearth::texels

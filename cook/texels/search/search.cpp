@@ -87,6 +87,12 @@ public:
         return false;
     }
 
+    /// Return the blocks of a candidate that are encoded, as encodeImage takes them.
+    std::vector<EncodedBlock> listBlocks(size_t i) const
+    {
+        return estimates_[i] ? estimates_[i]->listBlocks() : std::vector<EncodedBlock>();
+    }
+
     /// Return the estimates that were asked for, in the order of the candidates.
     std::vector<CandidateError> list() const
     {
@@ -149,10 +155,12 @@ size_t findCheapest(Estimates& estimates, std::span<const Candidate> candidates)
 
 /// Encode, measure what is lost, and compare it with the target. The area of a cut-out is kept as far as the
 /// target allows: scaled alphas are an error, too, and must not cost another format.
+/// known  as encodeImage
 Encoding encodeMeasured(const PlainImage& image, std::span<const SmoothCells> smooth,
-                        const Candidate& candidate, const Target& target, Effort effort)
+                        const Candidate& candidate, const Target& target, Effort effort,
+                        std::span<const EncodedBlock> known = {})
 {
-    Encoding encoding{.candidate = candidate, .texels = encodeImage(image, smooth, candidate, effort)};
+    Encoding encoding{.candidate = candidate, .texels = encodeImage(image, smooth, candidate, effort, known)};
     const auto measure = [&](Encoding& measured)
     {
         measured.error = measureError(image, smooth, candidate, measured.texels);
@@ -177,7 +185,8 @@ Encoding encodeBest(const PlainImage& image, std::span<const Candidate> candidat
     {
         if (!estimates.isSafe(i))
             continue;
-        Encoding encoding = encodeMeasured(image, smooth, candidates[i], target, effort);
+        Encoding encoding =
+            encodeMeasured(image, smooth, candidates[i], target, effort, estimates.listBlocks(i));
         if (encoding.share <= 1)
             return encoding;
         if (!best || encoding.share < best->share)
@@ -191,7 +200,8 @@ Encoding encodeBest(const PlainImage& image, std::span<const Candidate> candidat
     for (size_t i = compressed - std::min(compressed, kLastResorts); i < compressed; ++i)
         if (estimates.get(i) < estimates.get(best_estimate))
             best_estimate = i;
-    return encodeMeasured(image, smooth, candidates[best_estimate], target, effort);
+    return encodeMeasured(image, smooth, candidates[best_estimate], target, effort,
+                          estimates.listBlocks(best_estimate));
 }
 
 /// Leave out candidates that take no fewer bytes than one of more bits a texel: a mip that is smaller than a
