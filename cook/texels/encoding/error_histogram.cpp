@@ -4,6 +4,7 @@
 #include "cook/texels/encoding/texel_error.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -45,8 +46,17 @@ void ErrorHistogram::add(std::span<const DecodedTexel> plain, std::span<const De
         }
         return;
     }
-    for (size_t i = 0; i < plain.size(); ++i)
-        ++counts_[findStep(codeDifference(role_, channels_, plain[i], stored[i]))];
+    constexpr size_t kRun = 256;
+    std::array<uint16_t, kRun> buffer;
+    for (size_t begin = 0; begin < plain.size(); begin += kRun)
+    {
+        const size_t count = std::min(kRun, plain.size() - begin);
+        const std::span differences = std::span(buffer).first(count);
+        findCodeDifferences(role_, channels_, plain.subspan(begin, count), stored.subspan(begin, count),
+                            differences);
+        for (const uint16_t difference : differences)
+            ++counts_[findStep(difference)];
+    }
 }
 
 void ErrorHistogram::add(const ErrorHistogram& other)

@@ -37,18 +37,38 @@ DecodedTexel weightByAlpha(const DecodedTexel& texel)
     return {weigh(texel[0]), weigh(texel[1]), weigh(texel[2]), texel[3]};
 }
 
-uint16_t difference(uint16_t a, uint16_t b)
-{
-    return static_cast<uint16_t>(std::max(a, b) - std::min(a, b));
-}
-
 /// Eight numbers, of the channels of two texels.
 using Words = uint32_t __attribute__((vector_size(32)));
 
-/// Return the differences without their signs.
-Halves subtract(Halves a, Halves b)
+/// Hand over the differences of texels, two at a time: their channels, without signs, with the number of the
+/// first. A second one beyond the last has none.
+/// codes  tells the four numbers of a texel whose differences count
+template <typename Codes, typename Handle>
+void subtractPairs(std::span<const DecodedTexel> plain, std::span<const DecodedTexel> stored,
+                   const Codes& codes, const Handle& handle)
 {
-    return a > b ? a - b : b - a;
+    using Pair = std::array<DecodedTexel, 2>;
+    const auto subtract = [](const Pair& x, const Pair& y)
+    {
+        const auto a = std::bit_cast<Halves>(x), b = std::bit_cast<Halves>(y);
+        return Halves(a > b ? a - b : b - a);
+    };
+    size_t i = 0;
+    for (; i + 1 < plain.size(); i += 2)
+        handle(i, subtract({codes(plain[i]), codes(plain[i + 1])}, {codes(stored[i]), codes(stored[i + 1])}));
+    if (i < plain.size())
+        handle(i, subtract({codes(plain[i])}, {codes(stored[i])}));
+}
+
+DecodedTexel keepCodes(const DecodedTexel& texel)
+{
+    return texel;
+}
+
+/// Write the larger of a and b into a.
+void raise(Halves& a, Halves b)
+{
+    a = a > b ? a : b;
 }
 
 double stops(uint16_t half)
@@ -85,33 +105,27 @@ void ErrorSum::add(std::span<const DecodedTexel> plain, std::span<const DecodedT
     else if (role_ == ImageRole::cutout)
         addCodes(plain, stored, weightByAlpha);
     else
-        addCodes(plain, stored, [](const DecodedTexel& texel) { return texel; });
+        addCodes(plain, stored, keepCodes);
 }
 
 template <typename Codes>
 void ErrorSum::addCodes(std::span<const DecodedTexel> plain, std::span<const DecodedTexel> stored,
                         const Codes& codes)
 {
-    // Halves of the squares are summed in 32 bits, those of all channels of two texels at a time.
+    // halves of the squares are summed in 32 bits
     constexpr size_t kMaxRun = 1u << 16;
-    using Pair = std::array<DecodedTexel, 2>;
     for (size_t begin = 0; begin < plain.size(); begin += kMaxRun)
     {
-        const size_t end = std::min(begin + kMaxRun, plain.size());
+        const size_t count = std::min(kMaxRun, plain.size() - begin);
         Words low{}, high{};
-        const auto addPair = [&](const Pair& a, const Pair& b)
+        const auto addSquares = [&](size_t, Halves differences)
         {
-            const Halves differences = subtract(std::bit_cast<Halves>(a), std::bit_cast<Halves>(b));
             const Words wide = __builtin_convertvector(differences, Words);
             const Words squares = wide * wide;
             low += squares & 0xFFFF;
             high += squares >> 16;
         };
-        size_t i = begin;
-        for (; i + 1 < end; i += 2)
-            addPair(Pair{codes(plain[i]), codes(plain[i + 1])}, Pair{codes(stored[i]), codes(stored[i + 1])});
-        if (i < end)
-            addPair(Pair{codes(plain[i])}, Pair{codes(stored[i])});
+        subtractPairs(plain.subspan(begin, count), stored.subspan(begin, count), codes, addSquares);
         for (uint32_t c = 0; c < 4; ++c)
             if (has(channels_, c))
                 whole_[c] += uint64_t{low[c]} + low[c + 4] + ((uint64_t{high[c]} + high[c + 4]) << 16);
@@ -171,20 +185,31 @@ double texelError(ImageRole role, Channels channels, const DecodedTexel& plain, 
             error = std::max(error, std::abs(stops(plain[c]) - stops(stored[c])));
         return error;
     }
-    return codeDifference(role, channels, plain, stored) / kRange;
+    uint16_t difference = 0;
+    findCodeDifferences(role, channels, {&plain, 1}, {&stored, 1}, {&difference, 1});
+    return difference / kRange;
 }
 
-uint32_t codeDifference(ImageRole role, Channels channels, const DecodedTexel& plain,
-                        const DecodedTexel& stored)
+void findCodeDifferences(ImageRole role, Channels channels, std::span<const DecodedTexel> plain,
+                         std::span<const DecodedTexel> stored, std::span<uint16_t> differences)
 {
-    const bool is_cutout = role == ImageRole::cutout;
-    const DecodedTexel a = is_cutout ? weightByAlpha(plain) : plain;
-    const DecodedTexel b = is_cutout ? weightByAlpha(stored) : stored;
-    // a mask in place of a branch lets processors take four channels at a time
-    std::array<uint16_t, 4> differences;
-    for (uint32_t c = 0; c < 4; ++c)
-        differences[c] = static_cast<uint16_t>(difference(a[c], b[c]) & (has(channels, c) ? 0xFFFF : 0));
-    return std::max(std::max(differences[0], differences[1]), std::max(differences[2], differences[3]));
+    HEARTH_ASSERT(plain.size() == stored.size() && plain.size() == differences.size());
+    Halves counted{};
+    for (uint32_t lane = 0; lane < kHalves; ++lane)
+        counted[lane] = has(channels, lane % 4) ? 0xFFFF : 0;
+    const auto keepLargest = [&](size_t i, Halves pair)
+    {
+        Halves largest = pair & counted;
+        raise(largest, __builtin_shufflevector(largest, largest, 1, 0, 3, 2, 5, 4, 7, 6));
+        raise(largest, __builtin_shufflevector(largest, largest, 2, 3, 0, 1, 6, 7, 4, 5));
+        differences[i] = largest[0];
+        if (i + 1 < differences.size())
+            differences[i + 1] = largest[4];
+    };
+    if (role == ImageRole::cutout)
+        subtractPairs(plain, stored, weightByAlpha, keepLargest);
+    else
+        subtractPairs(plain, stored, keepCodes, keepLargest);
 }
 
 uint32_t countMeasuredMips(const ImageRecord& image)

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace hearth::texels
@@ -61,10 +62,13 @@ double combineMips(formats::ImageRole role, Channels channels, std::span<const s
 double texelError(formats::ImageRole role, Channels channels, const formats::DecodedTexel& plain,
                   const formats::DecodedTexel& stored);
 
-/// Return the largest difference of a channel, in 16-bit codes; of cutouts after weighting by alpha.
-/// role  neither normal nor light
-uint32_t codeDifference(formats::ImageRole role, Channels channels, const formats::DecodedTexel& plain,
-                        const formats::DecodedTexel& stored);
+/// Find the largest difference of a channel of each texel, in 16-bit codes; of cutouts after weighting by
+/// alpha.
+/// role                        neither normal nor light
+/// plain, stored, differences  of equal size
+void findCodeDifferences(formats::ImageRole role, Channels channels,
+                         std::span<const formats::DecodedTexel> plain,
+                         std::span<const formats::DecodedTexel> stored, std::span<uint16_t> differences);
 
 /// Return the number of mips that an error is measured on: the first four, of those with sides of 64 texels
 /// or more; at least one. Each of them is what some distance shows at a texel a pixel.
