@@ -16,7 +16,7 @@
 namespace hearth::texels
 {
 
-/// How long an encoder searches for the best bytes of a block.
+/// Length of an encoder's search for the best bytes of a block.
 enum class BlockSearch : uint8_t
 {
     usual,
