@@ -58,7 +58,7 @@ bool hasDocumentedTargets(ImageRole role, const ImageRecord& stored)
     case ImageRole::light:
         return stored.target_smooth == 0 && isNear(stored.target, 0.05);
     case ImageRole::data:
-        return stored.target_smooth == 0 && isNear(stored.target, share(37));
+        return stored.target_smooth == 0 && isNear(stored.target, share(36));
     default:
         return isNear(stored.target_smooth, share(53)) &&
                isNear(stored.target, share(role == ImageRole::cutout ? 45
