@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/light_cone.h"
+#include "formats/gpu_shared/sky_lobe.h"
 #include "runtime/shaders/scene/sky_rows.glsl"
 
 // texels (height, half-angle): means over cones
@@ -40,17 +41,35 @@ mediump vec3 skyDiffuse(LightCone cone)
     return hasSkyImage(sky) ? skyImageConeRadiance(sky, cone.axis, cone.cos_half_angle) : skyConeRadiance(cone);
 }
 
+// Cone from which a lobe gets the light of the sky, under an open one.
+// mirror  reflection of the view direction at the normal, unit
+LightCone skyLobeCone(LobeTotal lobe, vec3 mirror, vec3 normal, mediump float roughness, mediump float n_dot_v)
+{
+    LightCone cone = lobeCone(lobe, mirror, normal);
+    if (hasSkyImage(sceneSky()))
+    {
+        mediump float turn = skyLobe(roughness, n_dot_v).turn;
+        cone.axis = normalize(mirror * (1.0 - turn) + normal * turn);
+    }
+    return cone;
+}
+
 // Mean radiance over the visible part of a lobe. A part of the lobe sees what a smaller roughness would:
 // alpha, the square of the roughness, is about in proportion to the half-angle.
-// open  cone of the whole lobe
-mediump vec3 skyMirror(LightCone visible, LightCone open, float roughness)
+// open     cone of the whole lobe
+// diffuse  mean radiance of the diffuse part
+mediump vec3 skyMirror(LightCone visible, LightCone open, mediump float roughness, mediump float n_dot_v,
+                       mediump vec3 diffuse)
 {
     Sky sky = sceneSky();
     if (!hasSkyImage(sky))
         return skyConeRadiance(visible);
-    float share = sqrt(clamp((1.0 - visible.cos_half_angle) / max(1.0 - open.cos_half_angle, 1e-4), 0.0, 1.0));
-    float part = roughness * sqrt(share);
+    SkyLobe lobe = skyLobe(roughness, n_dot_v);
+    mediump float share = (1.0 - visible.cos_half_angle) / max(1.0 - open.cos_half_angle, 1e-4);
+    mediump float part = lobe.roughness * sqrt(sqrt(clamp(share, 0.0, 1.0)));
     float last = float(textureQueryLevels(sky_cube)) - 1.0 - sky.horizon.x;
     float lod = sky.horizon.x + last * part * (2.0 - part); // formats/records/probe.h
-    return min(sky.zenith * textureLod(sky_cube, visible.axis, lod).rgb, kMaxMirrorRadiance);
+    mediump vec3 narrow = min(sky.zenith * textureLod(sky_cube, visible.axis, lod).rgb, kMaxMirrorRadiance);
+    mediump vec3 wide = mix(diffuse, 0.28209479 * skyImageHarmonic(sky, 0u), lobe.even);
+    return mix(narrow, wide, lobe.wide);
 }

@@ -9,15 +9,16 @@ vec3 reflectedShare(Light light, vec3 from_lamp)
 }
 
 // Light of the sky and of its occluders that a lobe reflects, per albedo.
-// mirror  reflection of the view direction at the normal of the lobe
-// open    cone of the lobe under an open sky
+// mirror   reflection of the view direction at the normal of the lobe
+// open     cone of the lobe under an open sky
+// diffuse  mean radiance of the diffuse part
 mediump vec3 mirroredSky(SkyView sky, OccluderLight occluders, LightCone open, vec3 mirror, mediump float roughness,
-                         mediump float n_dot_v, mediump float occlusion)
+                         mediump float n_dot_v, mediump vec3 diffuse, mediump float occlusion)
 {
     if (!kSkyVisibility)
-        return occlusion * skyMirror(open, open, roughness);
+        return occlusion * skyMirror(open, open, roughness, n_dot_v, diffuse);
     mediump float share = min(occlusion, specularSky(sky, roughness, n_dot_v, mirror));
-    return share * skyMirror(visibleSpecularCone(sky, open), open, roughness) + specularOccluders(occluders, open, share);
+    return share * skyMirror(visibleSpecularCone(sky, open), open, roughness, n_dot_v, diffuse) + specularOccluders(occluders, open, share);
 }
 
 vec3 surroundingLight(SurfacePoint point, Shading shading, Layers layers, mediump float occlusion)
@@ -37,10 +38,11 @@ vec3 surroundingLight(SurfacePoint point, Shading shading, Layers layers, medium
         occluders = occluderLight(point.instance);
         occluded = diffuseOccluders(occluders, sky, diffuse_share);
     }
-    LightCone specular = lobeCone(shading.lobe, mirror, shading.normal);
-    mediump vec3 radiance = shading.albedo.diffuse * (diffuse_share * skyDiffuse(diffuse) + occluded) +
+    LightCone specular = skyLobeCone(shading.lobe, mirror, shading.normal, shading.roughness, shading.n_dot_v);
+    mediump vec3 seen = skyDiffuse(diffuse);
+    mediump vec3 radiance = shading.albedo.diffuse * (diffuse_share * seen + occluded) +
                     shading.albedo.specular * mirroredSky(sky, occluders, specular, mirror, shading.roughness,
-                                                          shading.n_dot_v, occlusion);
+                                                          shading.n_dot_v, seen, occlusion);
     if (hasLayer(kLayerSheen))
     {
         // a lobe as wide as the hemisphere is occluded as much as the diffuse part
@@ -53,11 +55,12 @@ vec3 surroundingLight(SurfacePoint point, Shading shading, Layers layers, medium
     {
         vec3 normal = layers.coat_normal;
         vec3 coat_mirror = reflect(-shading.to_eye, normal);
-        LightCone open = lobeCone(layers.coat_lobe, coat_mirror, normal);
+        LightCone open = skyLobeCone(layers.coat_lobe, coat_mirror, normal, layers.coat_roughness,
+                                     layers.coat_n_dot_v);
         SkyView coat_sky = skyView(point, normal, kTextureClearcoatNormal);
         radiance = addCoat(layers, radiance,
                            mirroredSky(coat_sky, occluders, open, coat_mirror, layers.coat_roughness,
-                                       layers.coat_n_dot_v, occlusion));
+                                       layers.coat_n_dot_v, seen, occlusion));
     }
     return radiance;
 }
