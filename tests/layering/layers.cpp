@@ -49,6 +49,7 @@ const std::vector<Layer>& layers()
         {"cook/mesh", {"formats"}},
         {"cook/pages", {"formats"}},
         {"cook/sampling", {"formats"}},
+        {"cook/ray_scene", {"formats"}},
         {"cook/environment", {"formats"}},
         {"cook/animation_bounds", {"formats"}},
 
@@ -89,8 +90,11 @@ const std::vector<Layer>& layers()
 
         {"cook/bricks/grid", {"formats"}},
         {"cook/bricks/voxels", {"formats", "cook/json", "cook/bricks/grid"}},
-        {"cook/bricks/light", {"formats", "cook/bricks/grid", "cook/bricks/voxels", "cook/sampling"}},
+        {"cook/bricks/light",
+         {"formats", "cook/bricks/grid", "cook/bricks/voxels", "cook/sampling", "cook/ray_scene"}},
         {"cook/bricks/program", {"formats", "cook/command_line", "cook/tools", "cook/bricks/light"}},
+
+        {"cook/receivers/bake", {"formats", "cook/sampling", "cook/ray_scene"}},
 
         {"cook/visibility/mesh", {"formats", "cook/mesh"}},
         {"cook/visibility/rays", {"formats", "cook/sampling", "cook/visibility/mesh"}},

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/light/ray_scene.h"
 
+#include "cook/ray_scene/triangle_rays.h"
 #include "cook/sampling/maps.h"
 #include "cook/sampling/owen_sobol.h"
-#include "formats/base/assert.h"
 
 #include <algorithm>
-#include <cstring>
-#include <embree3/rtcore.h>
 
 namespace hearth::bricks
 {
@@ -24,10 +22,8 @@ struct MaterialRange
 
 struct RayScene::State
 {
-    RTCDevice device = nullptr;
-    RTCScene scene = nullptr;
+    ray_scene::TriangleRays rays;
     std::vector<MaterialRange> materials; ///< in the order of their triangles
-    std::vector<Float3> corners;          ///< three of each triangle
     std::vector<Float3> normals;          ///< of the corners, 0 without one; or empty
 
     const MaterialRange& range(const Hit& hit) const
@@ -35,33 +31,10 @@ struct RayScene::State
         return *std::prev(
             std::ranges::upper_bound(materials, hit.triangle, {}, &MaterialRange::first_triangle));
     }
-
-    State() = default;
-    State(const State&) = delete;
-    State& operator=(const State&) = delete;
-    ~State()
-    {
-        rtcReleaseScene(scene);
-        rtcReleaseDevice(device);
-    }
 };
 
 namespace
 {
-
-RTCRay rayFrom(Float3 position, Float3 direction, float far)
-{
-    RTCRay ray{};
-    ray.org_x = position.x;
-    ray.org_y = position.y;
-    ray.org_z = position.z;
-    ray.dir_x = direction.x;
-    ray.dir_y = direction.y;
-    ray.dir_z = direction.z;
-    ray.tfar = far;
-    ray.mask = ~0u;
-    return ray;
-}
 
 /// Transform a normal by the cofactors, up to its sign. Not unit.
 Double3 transformNormal(const Affine3d& transform, Double3 normal)
@@ -135,52 +108,28 @@ RayScene::~RayScene() = default;
 Result<RayScene> RayScene::build(const StaticScene& scene, std::span<const InstancedCluster> placed,
                                  const GridFrame& frame, Normals normals)
 {
-    auto state = std::make_unique<State>();
-    HEARTH_TRY(readTriangles(scene, placed, frame, state->materials, state->corners,
-                             normals == Normals::smooth ? &state->normals : nullptr));
-    const std::vector<Float3>& corners = state->corners;
-    state->device = rtcNewDevice(nullptr);
-    HEARTH_ASSERT(state->device != nullptr);
-    state->scene = rtcNewScene(state->device);
-    // let no ray pass between two triangles with a common edge: a sealed room must stay dark
-    rtcSetSceneFlags(state->scene, RTC_SCENE_FLAG_ROBUST);
-    if (!corners.empty())
-    {
-        RTCGeometry triangles = rtcNewGeometry(state->device, RTC_GEOMETRY_TYPE_TRIANGLE);
-        void* const vertices = rtcSetNewGeometryBuffer(triangles, RTC_BUFFER_TYPE_VERTEX, 0,
-                                                       RTC_FORMAT_FLOAT3, sizeof(Float3), corners.size());
-        std::memcpy(vertices, corners.data(), corners.size() * sizeof(Float3));
-        auto* const indices = static_cast<uint32_t*>(rtcSetNewGeometryBuffer(
-            triangles, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(uint32_t), corners.size() / 3));
-        for (uint32_t i = 0; i < corners.size(); ++i)
-            indices[i] = i;
-        rtcCommitGeometry(triangles);
-        rtcAttachGeometry(state->scene, triangles);
-        rtcReleaseGeometry(triangles);
-    }
-    rtcCommitScene(state->scene);
-    return RayScene(std::move(state));
+    std::vector<MaterialRange> materials;
+    std::vector<Float3> corners, vertex_normals;
+    HEARTH_TRY(readTriangles(scene, placed, frame, materials, corners,
+                             normals == Normals::smooth ? &vertex_normals : nullptr));
+    return RayScene(std::make_unique<State>(
+        State{ray_scene::TriangleRays(std::move(corners)), std::move(materials), std::move(vertex_normals)}));
 }
 
 std::optional<RayScene::Hit> RayScene::nearest(Float3 position, Float3 direction) const
 {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    RTCRayHit ray{};
-    ray.ray = rayFrom(position, direction, std::numeric_limits<float>::infinity());
-    ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(state_->scene, &context, &ray);
-    if (ray.hit.geomID == RTC_INVALID_GEOMETRY_ID)
+    const std::optional<ray_scene::TriangleHit> hit = state_->rays.nearest(position, direction);
+    if (!hit)
         return std::nullopt;
-    const Float3* corner = &state_->corners[3 * size_t{ray.hit.primID}];
+    const auto corner = state_->rays.triangle(hit->triangle);
     const Float3 front = normalizeOr(cross(corner[1] - corner[0], corner[2] - corner[0]), -direction);
     const bool is_front = dot(front, direction) <= 0;
-    return Hit{position + direction * ray.ray.tfar, is_front ? front : -front, ray.hit.primID, is_front};
+    return Hit{position + direction * hit->distance, is_front ? front : -front, hit->triangle, is_front};
 }
 
 std::vector<RayScene::SurfacePoint> RayScene::sampleSurface(uint32_t count) const
 {
-    const std::vector<Float3>& corners = state_->corners;
+    const std::span<const Float3> corners = state_->rays.corners();
     const auto across = [&](size_t triangle)
     {
         const Float3* corner = &corners[3 * triangle];
@@ -206,7 +155,7 @@ std::vector<RayScene::SurfacePoint> RayScene::sampleSurface(uint32_t count) cons
 
 Float3 RayScene::smoothNormal(const Hit& hit) const
 {
-    const Float3* corner = &state_->corners[3 * size_t{hit.triangle}];
+    const auto corner = state_->rays.triangle(hit.triangle);
     const Float3* normal = &state_->normals[3 * size_t{hit.triangle}];
     const Float3 across = cross(corner[1] - corner[0], corner[2] - corner[0]);
     Float3 sum;
@@ -232,11 +181,7 @@ const SurfaceMaterial& RayScene::material(const Hit& hit) const
 
 bool RayScene::occluded(Float3 position, Float3 direction, float far) const
 {
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    RTCRay ray = rayFrom(position, direction, far);
-    rtcOccluded1(state_->scene, &context, &ray);
-    return ray.tfar < 0;
+    return state_->rays.occluded(position, direction, far);
 }
 
 } // namespace hearth::bricks
