@@ -31,6 +31,13 @@ Double3 transformPoint(const Affine3d& transform, Double3 point)
            Double3{transform.m[0][3], transform.m[1][3], transform.m[2][3]};
 }
 
+Double3 transformNormal(const Affine3d& transform, Double3 normal)
+{
+    const Double3 x = transformVector(transform, {1, 0, 0}), y = transformVector(transform, {0, 1, 0}),
+                  z = transformVector(transform, {0, 0, 1});
+    return cross(y, z) * normal.x + cross(z, x) * normal.y + cross(x, y) * normal.z;
+}
+
 Affine3d makeAffineFromTrs(Double3 translation, const std::array<double, 4>& rotation, Double3 scale)
 {
     const double x = rotation[0], y = rotation[1], z = rotation[2], w = rotation[3];

@@ -23,6 +23,10 @@ Affine3d operator*(const Affine3d& a, const Affine3d& b);
 Double3 transformVector(const Affine3d& transform, Double3 vector);
 Double3 transformPoint(const Affine3d& transform, Double3 point);
 
+/// Transform the normal of a surface, by the cofactors of the linear part. Not unit; a mirroring transform
+/// turns it round.
+Double3 transformNormal(const Affine3d& transform, Double3 normal);
+
 /// Return translation * rotation (unit quaternion x y z w) * scale.
 Affine3d makeAffineFromTrs(Double3 translation, const std::array<double, 4>& rotation, Double3 scale);
 

@@ -95,6 +95,8 @@ const std::vector<Layer>& layers()
         {"cook/bricks/program", {"formats", "cook/command_line", "cook/tools", "cook/bricks/light"}},
 
         {"cook/receivers/bake", {"formats", "cook/sampling", "cook/ray_scene"}},
+        {"cook/receivers/scene",
+         {"formats", "cook/bricks/voxels", "cook/bricks/light", "cook/receivers/bake"}},
 
         {"cook/visibility/mesh", {"formats", "cook/mesh"}},
         {"cook/visibility/rays", {"formats", "cook/sampling", "cook/visibility/mesh"}},

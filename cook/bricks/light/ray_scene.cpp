@@ -36,14 +36,6 @@ struct RayScene::State
 namespace
 {
 
-/// Transform a normal by the cofactors, up to its sign. Not unit.
-Double3 transformNormal(const Affine3d& transform, Double3 normal)
-{
-    const Double3 x = transformVector(transform, {1, 0, 0}), y = transformVector(transform, {0, 1, 0}),
-                  z = transformVector(transform, {0, 0, 1});
-    return cross(y, z) * normal.x + cross(z, x) * normal.y + cross(x, y) * normal.z;
-}
-
 /// Append the three corners of each triangle of a cluster, in voxels, counterclockwise from the front.
 /// normals  of the corners; or nullptr
 void addTriangles(const ClusterGeometry& geometry, const Affine3d& voxels_from_object, bool mirrored,

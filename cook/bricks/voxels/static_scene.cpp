@@ -68,7 +68,8 @@ Status addInstances(StaticScene& scene, uint32_t source)
         else if (isUnlit(scene, source, mesh))
             ++scene.left_out.unlit;
         else
-            scene.instances.push_back({source, instance.mesh, instance.world_from_object, instance.scale_max,
+            scene.instances.push_back({source, static_cast<uint32_t>(i), instance.mesh,
+                                       instance.world_from_object, instance.scale_max,
                                        (instance.flags & kInstanceMirrored) != 0,
                                        instanceBox(mesh, instance.world_from_object)});
     }

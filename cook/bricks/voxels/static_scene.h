@@ -23,6 +23,7 @@ struct SourceParts
 struct StaticInstance
 {
     uint32_t source;
+    uint32_t record; ///< index in the source's instances
     uint32_t mesh;
     Affine3 world_from_object;
     float scale_max; ///< as in InstanceRecord

@@ -137,8 +137,8 @@ double measure(const BakeScene& scene, const BakeSettings& settings)
 int main(int argc, char** argv)
 {
     cli::CommandLine app("Measures the bake of receivers on two threads.");
-    double texels_per_metre = 25;
-    app.addOption("--texels-per-metre", texels_per_metre, "density; 25 gives a million texels");
+    double texels_per_metre = 20.5;
+    app.addOption("--texels-per-metre", texels_per_metre, "density; 20.5 gives a million texels");
     if (const auto exit = app.parse(argc, argv))
         return *exit;
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, 2);

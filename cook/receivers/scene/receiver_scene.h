@@ -1,0 +1,27 @@
+// Makes the scene of a bake of receivers from the parts of its sources.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/bricks/voxels/static_scene.h"
+#include "cook/receivers/bake/bake_scene.h"
+
+namespace hearth::receivers
+{
+
+/// Scene of a bake. Its instances are those of the static scene.
+struct ReceiverScene
+{
+    BakeScene bake;
+    /// UV set of each instance's receivers: the first that can be used, of the second to the last and then the
+    /// first one, which mostly repeats textures. kInvalidIndex: it has no UVs.
+    std::vector<uint32_t> uv_sets;
+    std::vector<uint32_t> mesh_light_instances; ///< instance of each mesh light
+};
+
+/// Read the finest triangles, the lights as the runtime draws them (bricks::makeSceneLighting), and the
+/// emissive triangles of each instance as a mesh light. Light is exposed. Albedo and emission of a triangle
+/// are the means of four of its points. Surfaces with holes neither block nor reflect light.
+/// errors: errors of decoding pages and textures
+Result<ReceiverScene> makeReceiverScene(const bricks::StaticScene& scene);
+
+} // namespace hearth::receivers
