@@ -254,7 +254,7 @@ const std::vector<Library>& libraries()
         {"OpenEXR/", {"pipelines/import/", "runtime/viewer/"}},
         {"OpenImageIO/", {"pipelines/images/"}},
         {"lcms2.h", {"pipelines/images/"}},
-        {"stb/", {"runtime/viewer/"}}, // writes PNG
+        {"stb/", {"cook/receivers/bake/", "runtime/viewer/"}}, // packs rectangles; writes PNG
         {"draco/", {"pipelines/import/"}},
         {"astcenc.h", {"cook/specular/", "cook/texels/"}},
         {"meshoptimizer.h", {"pipelines/import/gltf/document/"}},

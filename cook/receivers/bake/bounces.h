@@ -18,9 +18,9 @@ struct GroupLight
     uint64_t shadow_rays = 0;
 };
 
-/// Compute irradiance E = D + G(albedo E), with D of the lights and G the mean of a gather table: the limit of
-/// as many bounces as asked for, or as many as change an element by more than kSettled of its value. Does not
-/// depend on the number of threads.
+/// Compute irradiance E = D + G(albedo E), with D of the lights and G the mean of a gather table: the limit
+/// of as many bounces as asked for, or as many as change an element by more than kSettled of its value. Does
+/// not depend on the number of threads.
 /// first, count  lights of the scene, 1 to kLightGroup
 GroupLight computeLight(const BakeScene& scene, const BakeRays& rays, const Elements& elements,
                         const GatherTable& table, size_t first, size_t count, uint32_t bounces);

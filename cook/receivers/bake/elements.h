@@ -25,13 +25,14 @@ class Elements
 public:
     /// domains     one for each instance; without texels where it has none
     /// patch_size  metres, above 0: longest edge of a patch, unless a triangle would have more than
-    ///             kMaxDivisions along an edge. Smaller triangles share a patch within a cube of this size, if
-    ///             they face the same way.
+    ///             kMaxDivisions along an edge. Smaller triangles share a patch within a cube of this
+    ///             size, if they face the same way.
     Elements(const BakeScene& scene, std::span<const TexelDomain> domains, float patch_size);
 
     static constexpr uint32_t kMaxDivisions = 64;
 
-    /// Return the element at a point of a triangle's front or back. kInvalidIndex: none, the surface is black.
+    /// Return the element at a point of a triangle's front or back.
+    /// returns  kInvalidIndex: none, the surface is black
     uint32_t find(SurfacePoint point, bool is_front) const;
 
     std::span<const Element> list() const { return elements_; }

@@ -12,8 +12,8 @@ namespace hearth::receivers
 struct ReceiverScene
 {
     BakeScene bake;
-    /// UV set of each instance's receivers: the first that can be used, of the second to the last and then the
-    /// first one, which mostly repeats textures. kInvalidIndex: it has no UVs.
+    /// UV set of each instance's receivers: the first that can be used, of the second to the last and then
+    /// the first one, which mostly repeats textures. kInvalidIndex: it has no UVs.
     std::vector<uint32_t> uv_sets;
     std::vector<uint32_t> mesh_light_instances; ///< instance of each mesh light
 };

@@ -1,5 +1,5 @@
-// Measures the bake of receivers: a hall of columns and balls with a million texels under eight lights, on two
-// threads.
+// Measures the bake of receivers: a hall of columns and balls with a million texels under eight lights, on
+// two threads.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
 #include "cook/receivers/bake/bake.h"
