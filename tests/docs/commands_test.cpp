@@ -86,6 +86,10 @@ protected:
             "cp robot.glb assets",
         });
         ASSERT_EQ(end.exit_code, 0) << end.err;
+        std::string sky = "#?RADIANCE\n\n-Y 8 +X 16\n"; // brighter from top to bottom
+        for (int i = 0; i < 128; ++i)
+            sky += {static_cast<char>(60 + i / 4), '\x50', '\x60', '\x80'};
+        sandbox_.write("noon.hdr", sky);
         std::string settings;
         for (const std::string& line : readBlocks("docs/settings.md", "toml"))
             settings += line + "\n";
