@@ -56,7 +56,7 @@ bool placeRectangles(BakedReceivers& baked)
     for (const InstanceRectangle& rectangle : baked.rectangles)
         if (rectangle.size.width > 0)
             sizes.push_back(rectangle.size);
-    const std::optional<Atlas> atlas = packAtlas(sizes);
+    const std::optional<AtlasLayout> atlas = layOutAtlas(sizes);
     if (!atlas)
         return false;
     baked.width = atlas->width;

@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/receivers/bake/atlas.h"
+#include "cook/receivers/bake/atlas_layout.h"
 #include "cook/receivers/bake/bake_scene.h"
 
 namespace hearth::receivers

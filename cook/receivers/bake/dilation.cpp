@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/receivers/bake/dilation.h"
 
-#include "cook/receivers/bake/atlas.h"
+#include "cook/receivers/bake/atlas_layout.h"
 #include "formats/base/index.h"
 
 #include <array>

@@ -1,6 +1,6 @@
 // Compares the rasteriser with polygons that are clipped to each texel, in double.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/receivers/bake/atlas.h"
+#include "cook/receivers/bake/atlas_layout.h"
 #include "tests/cook/receivers/receiver_shapes.h"
 #include "tests/support/sanitized.h"
 
@@ -206,7 +206,7 @@ TEST(TexelDomain, hasTheDensityThatWasAskedFor)
     EXPECT_EQ(chooseRectangle(half, 10), (RectangleSize{80, 20}));
 }
 
-TEST(Atlas, keepsRectanglesApart)
+TEST(AtlasLayout, keepsRectanglesApart)
 {
     Random random(3);
     for (size_t trial = 0; trial < test::trials(20); ++trial)
@@ -218,7 +218,7 @@ TEST(Atlas, keepsRectanglesApart)
             sizes.push_back({4 + below(random, 60), 4 + below(random, 60)});
             area += uint64_t{sizes.back().width + 2} * (sizes.back().height + 2);
         }
-        const Atlas atlas = packAtlas(sizes).value();
+        const AtlasLayout atlas = layOutAtlas(sizes).value();
         std::vector<bool> taken(size_t{atlas.width} * atlas.height);
         for (size_t i = 0; i < sizes.size(); ++i)
             for (uint32_t y = atlas.places[i].y - 1; y < atlas.places[i].y + sizes[i].height + 1; ++y)
@@ -236,13 +236,13 @@ TEST(Atlas, keepsRectanglesApart)
     }
 }
 
-TEST(Atlas, endsAtItsLimit)
+TEST(AtlasLayout, endsAtItsLimit)
 {
     const std::vector<RectangleSize> fitting(9, RectangleSize{4096, 4096});
-    EXPECT_TRUE(packAtlas(fitting));
+    EXPECT_TRUE(layOutAtlas(fitting));
     const std::vector<RectangleSize> too_many(17, RectangleSize{4096, 4096});
-    EXPECT_FALSE(packAtlas(too_many));
-    EXPECT_EQ(packAtlas({})->width, 0u);
+    EXPECT_FALSE(layOutAtlas(too_many));
+    EXPECT_EQ(layOutAtlas({})->width, 0u);
 }
 
 } // namespace hearth::receivers

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/receivers/bake/atlas.h"
+#include "cook/receivers/bake/atlas_layout.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ namespace
 constexpr std::array kWidthFactors{1.0, 1.05, 1.12, 1.25, 1.5, 2.0};
 
 /// Pack into an image of a width, as high as needed. nullopt: does not fit.
-std::optional<Atlas> packInto(std::vector<stbrp_rect> rectangles, uint32_t width)
+std::optional<AtlasLayout> packInto(std::vector<stbrp_rect> rectangles, uint32_t width)
 {
     std::vector<stbrp_node> nodes(width);
     stbrp_context context;
@@ -33,7 +33,7 @@ std::optional<Atlas> packInto(std::vector<stbrp_rect> rectangles, uint32_t width
                       static_cast<int>(nodes.size()));
     if (stbrp_pack_rects(&context, rectangles.data(), static_cast<int>(rectangles.size())) == 0)
         return std::nullopt;
-    Atlas atlas;
+    AtlasLayout atlas;
     for (const stbrp_rect& rectangle : rectangles)
     {
         atlas.width = std::max(atlas.width, static_cast<uint32_t>(rectangle.x + rectangle.w));
@@ -46,7 +46,7 @@ std::optional<Atlas> packInto(std::vector<stbrp_rect> rectangles, uint32_t width
 
 } // namespace
 
-std::optional<Atlas> packAtlas(std::span<const RectangleSize> rectangles)
+std::optional<AtlasLayout> layOutAtlas(std::span<const RectangleSize> rectangles)
 {
     std::vector<stbrp_rect> bordered;
     double area = 0;
@@ -61,14 +61,14 @@ std::optional<Atlas> packAtlas(std::span<const RectangleSize> rectangles)
         max_width = std::max(max_width, width);
     }
     if (bordered.empty())
-        return Atlas{};
-    std::optional<Atlas> best;
+        return AtlasLayout{};
+    std::optional<AtlasLayout> best;
     for (const double factor : kWidthFactors)
     {
         const double wanted = std::max(std::ceil(std::sqrt(area) * factor), static_cast<double>(max_width));
         const auto width = static_cast<uint32_t>(std::min(wanted, double{kMaxAtlasSide}));
-        std::optional<Atlas> atlas = packInto(bordered, width);
-        const auto texels = [](const Atlas& packed) { return uint64_t{packed.width} * packed.height; };
+        std::optional<AtlasLayout> atlas = packInto(bordered, width);
+        const auto texels = [](const AtlasLayout& packed) { return uint64_t{packed.width} * packed.height; };
         if (atlas && (!best || texels(*atlas) < texels(*best)))
             best = std::move(atlas);
     }

@@ -22,7 +22,7 @@ struct AtlasPlace
     uint32_t x = 0, y = 0; ///< first texel, without the border
 };
 
-struct Atlas
+struct AtlasLayout
 {
     uint32_t width = 0, height = 0; ///< 0 without rectangles
     std::vector<AtlasPlace> places; ///< one for each rectangle
@@ -30,6 +30,6 @@ struct Atlas
 
 /// Pack rectangles with their borders. The same rectangles get the same places.
 /// returns  nullopt if they do not fit into kMaxAtlasSide each way
-std::optional<Atlas> packAtlas(std::span<const RectangleSize> rectangles);
+std::optional<AtlasLayout> layOutAtlas(std::span<const RectangleSize> rectangles);
 
 } // namespace hearth::receivers
