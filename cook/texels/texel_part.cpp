@@ -170,20 +170,20 @@ Status cookTexels(const std::string& import_path, const std::string& textures_pa
     HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer,
                             ContainerWriter::create(output_path, ContainerKind::part));
     std::vector<ImageRecord> records;
-    HEARTH_TRY(encodeImages(source, options,
-                            [&](EncodedImage image) -> Status
-                            {
-                                const auto index = static_cast<uint32_t>(records.size());
-                                records.push_back(image.result.record);
-                                HEARTH_TRY(addImageData(writer, index, image.result.record, image.texels));
-                                results.images.push_back(std::move(image.result));
-                                if (image.picture)
-                                {
-                                    results.images.back().picture = results.pictures.size();
-                                    results.pictures.push_back(*std::move(image.picture));
-                                }
-                                return success();
-                            }));
+    const auto write = [&](EncodedImage image) -> Status
+    {
+        const auto index = static_cast<uint32_t>(records.size());
+        records.push_back(image.result.record);
+        HEARTH_TRY(addImageData(writer, index, image.result.record, image.texels));
+        results.images.push_back(std::move(image.result));
+        if (image.picture)
+        {
+            results.images.back().picture = results.pictures.size();
+            results.pictures.push_back(*std::move(image.picture));
+        }
+        return success();
+    };
+    HEARTH_TRY(encodeImages(source, options, write));
     if (!source.changedStrings().empty())
         HEARTH_TRY(writer.addText(kChunkStrings, source.changedStrings()));
     HEARTH_TRY(writer.addRecords<ImageRecord>(kChunkImages, records));

@@ -19,7 +19,7 @@ enum class Occlusion
 
 struct PathTracing
 {
-    shared::Camera camera;
+    shared::Camera camera{};
     uint32_t width = 640;
     uint32_t height = 360;
     uint32_t samples = 16; ///< paths of each pixel
