@@ -1,6 +1,5 @@
 // The sky that lights every scene: a smooth gradient from ground over horizon to zenith, or an image. Its
-// radiance from a direction, and the gradient's mean over a cone of directions through a table. One source for
-// C++ and GLSL.
+// radiance from a direction, and its means over cones and lobes. One source for C++ and GLSL.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_SKY_H
 #define HEARTH_SHARED_SKY_H
@@ -18,8 +17,8 @@
 //
 // The image of a sky is its probe (formats/records/probe.h). Background and reflections sample the probe's
 // cube map, the diffuse part takes its harmonics, and rays through bricks read a small cube of texels here:
-// they are few, so a blurred sky gives them less noise. Everything that the sky lights reads skyRadiance here,
-// or skyDiffuse or skyMirror of sky.glsl.
+// they are few, so a blurred sky gives them less noise. Everything that the sky lights reads skyRadiance
+// here, or skyDiffuse or skyMirror of sky.glsl.
 
 HEARTH_SHARED_BEGIN
 
@@ -194,6 +193,39 @@ HEARTH_FUNCTION Float2 skyTableNode(uint column, uint row)
     float across = float(column) / float(kSkyTableHeights - 1u);
     float down = float(row) / float(kSkyTableAngles - 1u);
     return Float2(2.0f * across - 1.0f, 1.0f - down * down);
+}
+
+// ---- lobes in an image
+
+// The mips of a probe are lobes seen along the normal, about the mirror direction. Seen from aside, a lobe is
+// narrower across, its tail leans towards the normal, and masking takes what grazes the surface. So a lobe is
+//     (1 - wide) mip(roughness', axis) + wide ((1 - even) diffuse + even mean),
+// where diffuse is the mean by the cosine to the normal, and mean that over all directions. The four numbers
+// were fitted to lobes of GGX with height-correlated masking, as harmonics of degree 12 with weights
+// 1 / sqrt(1 + l^2): the rms error of roughness .25 to .8 is .01 to .19 of the lobe, seen at cosines of 1 to
+// .1; one mip about the lobe's mean direction has .02 to .39 (tests/formats/sky_lobe_test.cpp).
+
+struct SkyLobe
+{
+    Half turn;      ///< axis: (1 - turn) mirror direction + turn normal
+    Half roughness; ///< of the mip
+    Half wide;      ///< share of the wide part, [0, 1]
+    Half even;      ///< share of the mean over all directions in the wide part
+};
+
+/// Return the parts of a lobe.
+HEARTH_FUNCTION SkyLobe skyLobe(Half roughness, Half n_dot_v)
+{
+    Half alpha = roughness * roughness;
+    Half aside = 1.0f - n_dot_v;
+    Half rest = 1.0f - alpha;
+    SkyLobe lobe;
+    lobe.turn = min(alpha * aside * (0.5f + 0.8f * aside), 0.35f);
+    lobe.roughness = roughness * (1.0f - 0.3f * aside) * (1.0f - 0.25f * alpha * alpha);
+    lobe.wide =
+        min(alpha * alpha * (3.0f - 2.0f * alpha) + 1.6f * aside * aside * aside * alpha * rest * rest, 1.0f);
+    lobe.even = 0.25f * alpha * alpha * alpha * (0.27f + 0.45f * aside * aside);
+    return lobe;
 }
 
 HEARTH_SHARED_END

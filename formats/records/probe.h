@@ -38,8 +38,8 @@ struct ProbeRecord
     uint32_t reserved[7];
 };
 
-/// Return the roughness of mip 0, 1, ... mip_count - 1 without the sharp ones, from 0 to 1; at least two mips. A roughness r is
-/// found at lod (mip_count - 1) r (2 - r).
+/// Return the roughness of mip 0, 1, ... mip_count - 1 without the sharp ones, from 0 to 1; at least two
+/// mips. A roughness r is found at lod (mip_count - 1) r (2 - r).
 inline double probeMipRoughness(uint32_t mip, uint32_t mip_count)
 {
     return 1 - std::sqrt(1 - static_cast<double>(mip) / (mip_count - 1));

@@ -1,8 +1,7 @@
 // The parts in which a lobe is looked up in the image of a sky, beside the lobe of GGX.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/gpu_shared/sky_lobe.h"
-
 #include "formats/base/double3.h"
+#include "formats/gpu_shared/sky.h"
 
 #include <gtest/gtest.h>
 
@@ -83,7 +82,7 @@ Weights weighLobe(double roughness, double n_dot_v)
         });
 }
 
-/// What a mip of a probe shows (formats/records/probe.h).
+/// Weights of a mip of a probe (formats/records/probe.h).
 Weights weighMip(double roughness, Double3 axis)
 {
     const double a2 = std::pow(roughness, 4);

@@ -24,7 +24,7 @@ constexpr RequiredLimit kLimits[] = {
     {HEARTH_LIMIT(maxPerStageDescriptorStorageImages), 1, "storage images in a stage", "gathered light"},
     {HEARTH_LIMIT(maxPerStageDescriptorInputAttachments), 4, "input attachments in a stage",
      "shading by sums of light: three, and the visibility buffer"},
-    {HEARTH_LIMIT(maxPerStageResources), 31, "resources in a stage",
+    {HEARTH_LIMIT(maxPerStageResources), 32, "resources in a stage",
      "shading: the above and its colour attachment"},
     {HEARTH_LIMIT(maxDescriptorSetStorageBuffers), 9, "storage buffers in a pipeline", "shading by tiles"},
     {HEARTH_LIMIT(maxDescriptorSetUniformBuffers), 4, "uniform buffers in a pipeline", "shading"},

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/light_cone.h"
-#include "formats/gpu_shared/sky_lobe.h"
 #include "runtime/shaders/scene/sky_rows.glsl"
 
 // texels (height, half-angle): means over cones
