@@ -96,10 +96,10 @@ struct Light
 /// indices (light_grid.h).
 struct Lighting
 {
-    Float3 sky_zenith; ///< radiance; with an image of the sky the factor of its texels
+    Float3 sky_zenith; ///< radiance
     uint light_count;
-    Float3 sky_horizon; ///< with an image: x is the number of the cube map's sharp mips
-    float exposure;     ///< of emission; the intensities of lights have it already
+    Float3 sky_horizon;
+    float exposure; ///< of emission; the intensities of lights have it already
     Float3 sky_ground;
     uint surroundings_row; ///< row of 16 bytes of the buffer: first instance, or kNoSurroundings
     uint transfers_row;    ///< row of the first radiance transfer

@@ -32,6 +32,7 @@ HEARTH_CONSTANT uint kSkyImageSide = 16;
 HEARTH_CONSTANT uint kSkyImageTexels = 6 * 16 * 16;
 HEARTH_CONSTANT uint kSkyHarmonics = 9; ///< degrees 0 to 2
 /// Rows of 16 bytes that a sky image takes in the buffer of lights: texels, then harmonics of radiance.
+/// Behind the first harmonic is the factor of the texels, behind the second one the number of sharp mips.
 HEARTH_CONSTANT uint kSkyImageRows = 6 * 16 * 16 / 4 + 9;
 HEARTH_CONSTANT uint kNoSkyImage = 0; ///< in place of the first row: the sky is the gradient
 
@@ -39,16 +40,18 @@ HEARTH_CONSTANT uint kNoSkyImage = 0; ///< in place of the first row: the sky is
 /// Image of a sky (formats/scene/sky_image.h).
 struct SkyImage
 {
-    std::array<uint32_t, kSkyImageTexels> texels; ///< radiance in RGB9E5; Sky::zenith is their factor
+    std::array<uint32_t, kSkyImageTexels> texels; ///< radiance over `factor`, in RGB9E5
     std::array<Float3, kSkyHarmonics> harmonics;  ///< of radiance, as shared::evaluateHarmonics
+    float factor;                                 ///< of texels, here and in the cube map of the probe
+    uint32_t sharp_mips;                          ///< of the cube map
 };
 #endif
 
-/// Colours of the sky, radiance, as in shared::Lighting.
+/// Colours of the gradient, radiance, as in shared::Lighting; or an image.
 struct Sky
 {
-    Float3 zenith;  ///< with an image: the factor of its texels
-    Float3 horizon; ///< with an image: x is the number of the cube map's sharp mips
+    Float3 zenith;
+    Float3 horizon;
     Float3 ground;
 #ifdef __cplusplus
     const SkyImage* image = nullptr; ///< none: the gradient
@@ -66,6 +69,10 @@ inline uint skyImageTexel(const Sky& sky, uint index)
 {
     return sky.image->texels[index];
 }
+inline float skyImageFactor(const Sky& sky)
+{
+    return sky.image->factor;
+}
 inline Float3 skyImageHarmonic(const Sky& sky, uint index)
 {
     return sky.image->harmonics[index];
@@ -77,6 +84,7 @@ bool hasSkyImage(Sky sky)
 }
 // by scene/sky_rows.glsl
 uint skyImageTexel(Sky sky, uint index);
+float skyImageFactor(Sky sky);
 vec3 skyImageHarmonic(Sky sky, uint index);
 #endif
 
@@ -134,7 +142,7 @@ HEARTH_FUNCTION float skyHigh(float height)
 HEARTH_FUNCTION Float3 skyRadiance(HEARTH_IN(Sky) sky, Float3 direction)
 {
     if (hasSkyImage(sky))
-        return sky.zenith * sharedExponentColor(skyImageTexel(sky, skyImageIndex(direction)));
+        return sharedExponentColor(skyImageTexel(sky, skyImageIndex(direction))) * skyImageFactor(sky);
     Float3 above = sky.horizon + (sky.zenith - sky.horizon) * skyHigh(direction.y);
     return sky.ground + (above - sky.ground) * skyAbove(direction.y);
 }

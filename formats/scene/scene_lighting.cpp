@@ -98,7 +98,7 @@ SceneLighting sceneLighting(std::span<const formats::LightRecord> lights, const 
         const formats::ProbeRecord& probe = probes.records[*i];
         lighting.sky_image =
             makeSkyImage(probe, probes.texels.subspan(probe.texels.first, probe.texels.count));
-        lighting.sky = imageSky(*lighting.sky_image, probe);
+        lighting.sky = {.zenith = {}, .horizon = {}, .ground = {}, .image = lighting.sky_image.get()};
     }
     else if (lighting.lights.empty())
         lighting.lights.push_back(defaultSun());

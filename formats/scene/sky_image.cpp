@@ -45,16 +45,9 @@ std::shared_ptr<const SkyImage> makeSkyImage(const ProbeRecord& probe, std::span
         image->harmonics[i] =
             Float3{probe.harmonics[3 * i], probe.harmonics[3 * i + 1], probe.harmonics[3 * i + 2]} *
             probe.irradiance_luminance;
+    image->factor = probe.irradiance_luminance;
+    image->sharp_mips = probe.sharp_mips;
     return image;
-}
-
-Sky imageSky(const SkyImage& image, const ProbeRecord& probe)
-{
-    const float factor = probe.irradiance_luminance;
-    return {.zenith = {factor, factor, factor},
-            .horizon = {static_cast<float>(probe.sharp_mips), 0, 0},
-            .ground = {},
-            .image = &image};
 }
 
 } // namespace hearth::shared

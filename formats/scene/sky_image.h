@@ -21,9 +21,4 @@ std::optional<size_t> findSkyProbe(std::span<const formats::ProbeRecord> probes)
 std::shared_ptr<const SkyImage> makeSkyImage(const formats::ProbeRecord& probe,
                                              std::span<const uint32_t> texels);
 
-/// Return the sky of an image.
-/// image  must outlive the sky
-/// probe  that the image was made of
-Sky imageSky(const SkyImage& image, const formats::ProbeRecord& probe);
-
 } // namespace hearth::shared

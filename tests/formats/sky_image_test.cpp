@@ -87,9 +87,10 @@ TEST(SkyImage, hasTheTexelsOfTheMipOfItsSize)
     {
         const NumberedProbe probe(64, 4, sharp_mips); // the mip of 16 is number 2 after the sharp ones
         const auto image = makeSkyImage(probe.record, probe.texels);
-        const Sky sky = imageSky(*image, probe.record);
+        const Sky sky{{}, {}, {}, image.get()};
         for (uint32_t i = 0; i < kSkyImageTexels; ++i)
             ASSERT_EQ(decoded(image->texels[i]).x, static_cast<float>(i % 512));
+        EXPECT_EQ(image->sharp_mips, sharp_mips);
         EXPECT_EQ(skyRadiance(sky, {1, 0.01f, 0.01f}).y, 2.0f * static_cast<float>(2 + sharp_mips));
     }
     // of a smaller probe the finest mip of a roughness
@@ -107,7 +108,7 @@ TEST(SkyImage, lightsASceneWithoutASun)
     const SceneLighting lighting = sceneLighting({}, {}, {{&probe.record, 1}, probe.texels});
     EXPECT_TRUE(lighting.lights.empty());
     ASSERT_NE(lighting.sky.image, nullptr);
-    EXPECT_EQ(lighting.sky.zenith.y, 2);
+    EXPECT_EQ(lighting.sky.image->factor, 2);
     EXPECT_EQ(sceneLighting({}, {}).lights.size(), 1u);
     ProbeRecord local = probe.record;
     local.flags = 0;
@@ -151,7 +152,7 @@ TEST(SkyImage, givesMeansOverCones)
         const auto value = static_cast<float>(4 * kPi * meanOverCone({0, 0, 1}, -1, product));
         image.harmonics[i] = {value, 2 * value, -value};
     }
-    const Sky sky{{1, 1, 1}, {}, {}, &image};
+    const Sky sky{{}, {}, {}, &image};
     for (const Float3 axis : {Float3{0, 1, 0}, Float3{0.6f, -0.48f, 0.64f}, Float3{-0.6f, 0, 0.8f}})
         for (const double cosine : {0.0, 0.36, 0.8, 1.0})
         {

@@ -44,6 +44,10 @@ void writeSkyImage(const shared::SkyImage& image, std::span<std::byte> rows)
     std::memcpy(rows.data(), image.texels.data(), sizeof image.texels);
     for (size_t i = 0; i < image.harmonics.size(); ++i)
         std::memcpy(rows.data() + sizeof image.texels + i * kRowBytes, &image.harmonics[i], sizeof(Float3));
+    const uint32_t behind[] = {shared::floatBits(image.factor), image.sharp_mips};
+    for (size_t i = 0; i < std::size(behind); ++i)
+        std::memcpy(rows.data() + sizeof image.texels + i * kRowBytes + sizeof(Float3), &behind[i],
+                    sizeof behind[i]);
 }
 
 } // namespace

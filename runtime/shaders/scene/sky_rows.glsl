@@ -10,6 +10,11 @@ Sky sceneSky()
 
 uint skyImageTexel(Sky sky, uint index) { return light_words[4u * sky.image + index]; }
 
+float skyImageFactor(Sky sky) { return uintBitsToFloat(light_words[4u * sky.image + kSkyImageTexels + 3u]); }
+
+// Number of the cube map's sharp mips.
+uint skyImageSharpMips(Sky sky) { return light_words[4u * sky.image + kSkyImageTexels + 7u]; }
+
 vec3 skyImageHarmonic(Sky sky, uint index)
 {
     uint word = 4u * (sky.image + index) + kSkyImageTexels;

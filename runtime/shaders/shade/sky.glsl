@@ -6,7 +6,7 @@
 
 // texels (height, half-angle): means over cones
 layout(set = kSetScene, binding = kSceneSkyTable) uniform mediump sampler2D sky_table;
-// radiance as lobes of each roughness reflect it, over sky_zenith; its largest texel is beyond mediump
+// radiance as lobes of each roughness reflect it, over skyImageFactor; its largest texel is beyond mediump
 layout(set = kSetScene, binding = kSceneSkyCube) uniform samplerCube sky_cube;
 
 // Largest radiance of a reflection: half of what mediump holds.
@@ -30,7 +30,7 @@ vec3 skyBackground(vec3 direction)
     float side = float(textureSize(sky_cube, 0).x);
     vec3 across = max(abs(dFdx(direction)), abs(dFdy(direction)));
     float lod = log2(max(max(across.x, max(across.y, across.z)) * 0.5 * side, 1.0));
-    return sky.zenith * textureLod(sky_cube, direction, min(lod, sky.horizon.x)).rgb;
+    return skyImageFactor(sky) * textureLod(sky_cube, direction, min(lod, float(skyImageSharpMips(sky)))).rgb;
 }
 
 // Mean radiance over a wide cone: of the diffuse part or of sheen.
@@ -66,9 +66,10 @@ mediump vec3 skyMirror(LightCone visible, LightCone open, mediump float roughnes
     SkyLobe lobe = skyLobe(roughness, n_dot_v);
     mediump float share = (1.0 - visible.cos_half_angle) / max(1.0 - open.cos_half_angle, 1e-4);
     mediump float part = lobe.roughness * sqrt(sqrt(clamp(share, 0.0, 1.0)));
-    float last = float(textureQueryLevels(sky_cube)) - 1.0 - sky.horizon.x;
-    float lod = sky.horizon.x + last * part * (2.0 - part); // formats/records/probe.h
-    mediump vec3 narrow = min(sky.zenith * textureLod(sky_cube, visible.axis, lod).rgb, kMaxMirrorRadiance);
+    float first = float(skyImageSharpMips(sky));
+    float last = float(textureQueryLevels(sky_cube)) - 1.0 - first;
+    float lod = first + last * part * (2.0 - part); // formats/records/probe.h
+    mediump vec3 narrow = min(skyImageFactor(sky) * textureLod(sky_cube, visible.axis, lod).rgb, kMaxMirrorRadiance);
     mediump vec3 wide = mix(diffuse, 0.28209479 * skyImageHarmonic(sky, 0u), lobe.even);
     return mix(narrow, wide, lobe.wide);
 }
