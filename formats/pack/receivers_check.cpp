@@ -13,6 +13,7 @@ constexpr const char* kAtlasKind = "receivers";
 constexpr const char* kLampKind = "receiver lamp";
 constexpr const char* kRectKind = "receiver rectangle";
 constexpr const char* kBlockKind = "receiver block";
+constexpr uint32_t kMaxUvSets = 4;
 
 /// Set of texels of an atlas.
 class TexelSet
@@ -92,6 +93,9 @@ Status collectRects(const PackView& view, const ReceiverTables& tables, TexelSet
         if (rect.width == 0 || rect.height == 0 || rect.x >= atlas.width || rect.y >= atlas.height ||
             rect.width > atlas.width - rect.x || rect.height > atlas.height - rect.y)
             return makeError(view, Issue::meaning_range, kRectKind, i, "it leaves the atlas");
+        if (rect.uv_set >= kMaxUvSets)
+            return makeError(view, Issue::meaning_value, kRectKind, i,
+                             "UV set " + std::to_string(rect.uv_set));
         if (i > 0 && tables.rects[i - 1].instance >= rect.instance)
             return makeError(view, Issue::meaning_order, kRectKind, i, "instances do not rise");
         for (uint32_t y = rect.y; y < rect.y + rect.height; ++y)
@@ -219,9 +223,17 @@ Status checkReceiverReferences(const PackView& view)
                              (is_light ? "light " : "instance ") + std::to_string(lamp.index));
     }
     for (size_t i = 0; i < tables.rects.size(); ++i)
-        if (tables.rects[i].instance >= view.instances().size())
+    {
+        const ReceiverRectRecord& rect = tables.rects[i];
+        if (rect.instance >= view.instances().size())
             return makeError(view, Issue::meaning_reference, kRectKind, i,
-                             "instance " + std::to_string(tables.rects[i].instance));
+                             "instance " + std::to_string(rect.instance));
+        const uint32_t mesh = view.instances()[rect.instance].mesh;
+        if (mesh >= view.meshes().size() ||
+            (view.meshes()[mesh].attributes & shared::kVertexUv0 << rect.uv_set) == 0)
+            return makeError(view, Issue::meaning_reference, kRectKind, i,
+                             "UV set " + std::to_string(rect.uv_set) + " that its mesh does not have");
+    }
     return success();
 }
 

@@ -59,8 +59,8 @@ struct ReceiverLampRecord
     friend bool operator==(const ReceiverLampRecord&, const ReceiverLampRecord&) = default;
 };
 
-/// Rectangle of the atlas that an instance has to itself. Its mesh's texture coordinates (u, v) of 0 to 1 lie
-/// at (x + u width, y + v height).
+/// Rectangle of the atlas that an instance has to itself. Texture coordinates (u, v) of 0 to 1, of the UV set
+/// that it names, lie at (x + u width, y + v height).
 struct ReceiverRectRecord
 {
     uint32_t instance;
@@ -68,6 +68,7 @@ struct ReceiverRectRecord
     uint32_t y;
     uint32_t width;
     uint32_t height;
+    uint32_t uv_set;
 };
 
 using ReceiverBlockRecord = shared::ReceiverBlock;
@@ -118,12 +119,13 @@ HEARTH_RECORD(hearth::formats::ReceiverLampRecord, 8,
               HEARTH_FIELD(hearth::formats::ReceiverLampRecord, index,
                            "of chunk LGHT or INST; 0 for steady light"));
 
-HEARTH_RECORD(hearth::formats::ReceiverRectRecord, 20,
+HEARTH_RECORD(hearth::formats::ReceiverRectRecord, 24,
               HEARTH_FIELD(hearth::formats::ReceiverRectRecord, instance, "one with a mesh"),
               HEARTH_FIELD(hearth::formats::ReceiverRectRecord, x, "first column"),
               HEARTH_FIELD(hearth::formats::ReceiverRectRecord, y, "first row"),
               HEARTH_FIELD(hearth::formats::ReceiverRectRecord, width, "columns, at least 1"),
-              HEARTH_FIELD(hearth::formats::ReceiverRectRecord, height, "rows, at least 1"));
+              HEARTH_FIELD(hearth::formats::ReceiverRectRecord, height, "rows, at least 1"),
+              HEARTH_FIELD(hearth::formats::ReceiverRectRecord, uv_set, "0 to 3: one that the mesh has"));
 
 HEARTH_RECORD(hearth::formats::ReceiverBlockRecord, 40,
               HEARTH_FIELD(hearth::formats::ReceiverBlockRecord, first_word,

@@ -227,7 +227,7 @@ void addStrip(PackModel& pack)
 
 void addTriangle(PackModel& pack)
 {
-    beginMesh(pack, "triangle", kVertexInfluences);
+    beginMesh(pack, "triangle", kVertexUv0 | kVertexInfluences);
     pack.meshes.back().skinned = 1;
     pack.meshes.back().morph_target_count = 1;
     const uint32_t first = static_cast<uint32_t>(pack.clusters.size());
@@ -296,7 +296,7 @@ void addReceivers(PackModel& pack)
 {
     const auto place = [](uint32_t x, uint32_t y) { return x | y << 14; };
     pack.receiver_lamps = {{0, 0}, {1, 0}, {2, 1}};
-    pack.receiver_rects = {{0, 0, 0, 3, 4}, {1, 4, 0, 2, 2}};
+    pack.receiver_rects = {{0, 0, 0, 3, 4, 0}, {1, 4, 0, 2, 2, 0}};
     pack.receiver_blocks = {{0, 2, 2, 0, {1u << 16, 0, 0, 0, 0, 0}}, {6, 1, 3, 3, {1u << 16, 2, 0, 0, 0, 0}}};
     pack.receiver_words = {place(0, 0), place(2, 2), 15u << 27 | 256, 15u << 27 | 128, 14u << 27 | 300,
                            0,           place(5, 1), 15u << 27,       16u << 27 | 511, 20u << 27 | 256 << 9};

@@ -88,7 +88,7 @@ struct Room
         {
             const auto columns = static_cast<uint32_t>(length(face.along) * texels_per_metre);
             const auto rows = static_cast<uint32_t>(length(face.up) * texels_per_metre);
-            rects.push_back({static_cast<uint32_t>(rects.size()), 0, height, columns, rows});
+            rects.push_back({static_cast<uint32_t>(rects.size()), 0, height, columns, rows, 0});
             width = std::max(width, columns);
             height += rows + 2;
         }

@@ -14,7 +14,7 @@ namespace hearth::test
 struct RandomReceivers
 {
     RandomReceivers(uint32_t width_in, uint32_t height_in, uint32_t lamp_count, uint32_t seed)
-        : width(width_in), height(height_in), lamps(lamp_count), rects{{0, 0, 0, width_in, height_in}}
+        : width(width_in), height(height_in), lamps(lamp_count), rects{{0, 0, 0, width_in, height_in, 0}}
     {
         std::mt19937 random(seed);
         std::uniform_real_distribution<float> unit(0, 1);

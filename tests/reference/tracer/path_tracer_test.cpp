@@ -124,7 +124,7 @@ TEST_F(PathTracerTest, agreesWithTheSumOverTheTexelsOfASky)
                         const double solid_angle = panelSolidAngle(layout, area);
                         total_density += lighting.sky_map->density(direction) * solid_angle;
                         if (direction.y > 0)
-                            sum += double{sky.texels[sky.index(panel, x / kParts, y / kParts)].y} *
+                            sum += lighting.sky_map->radiance(direction).y *
                                    reflected(floor->coating, view, direction).y * solid_angle;
                     }
             EXPECT_NEAR(total_density, 1, 0.01);

@@ -91,11 +91,17 @@ SkyMap::SkyMap(environment::Environment image) : image_(std::move(image))
     const bool is_cube = image_.layout == environment::Layout::cube;
     for (size_t i = 0; i < image_.texels.size(); ++i)
     {
-        const double u = (static_cast<double>(i % image_.width) + 0.5) / image_.width;
-        const double v = (static_cast<double>(i / image_.width % image_.height) + 0.5) / image_.height;
-        const Double3 direction = is_cube ? cubeDirection(i / (size_t{image_.width} * image_.height), u, v)
-                                          : latLongDirection(u, v);
-        sum += dot(Double3(image_.texels[i]), {0.2126, 0.7152, 0.0722}) * find(direction).solid_angle;
+        const size_t x = i % image_.width, y = i / image_.width % image_.height,
+                     panel = i / (size_t{image_.width} * image_.height);
+        const double u = (static_cast<double>(x) + 0.5) / image_.width;
+        const double v = (static_cast<double>(y) + 0.5) / image_.height;
+        Double3 around{};
+        for (const int64_t down : {-1, 0, 1})
+            for (const int64_t across : {-1, 0, 1})
+                around +=
+                    texel(panel, static_cast<int64_t>(x) + across, static_cast<int64_t>(y) + down) / 9.0;
+        const Double3 direction = is_cube ? cubeDirection(panel, u, v) : latLongDirection(u, v);
+        sum += dot(around, {0.2126, 0.7152, 0.0722}) * find(direction).solid_angle;
         cumulated_.push_back(sum);
     }
 }
@@ -104,16 +110,30 @@ SkyMap::Place SkyMap::find(Double3 direction) const
 {
     const PanelPlace place =
         image_.layout == environment::Layout::cube ? findCube(direction) : findLatLong(direction);
-    const auto texel = [](double at, uint32_t count)
-    { return static_cast<size_t>(std::clamp(at * count, 0.0, count - 1.0)); };
-    return {(place.panel * image_.height + texel(place.v, image_.height)) * image_.width +
-                texel(place.u, image_.width),
-            place.solid_angle};
+    return {place.panel, place.u * image_.width, place.v * image_.height, place.solid_angle};
+}
+
+Double3 SkyMap::texel(size_t panel, int64_t x, int64_t y) const
+{
+    const int64_t width = image_.width, height = image_.height;
+    x = image_.layout == environment::Layout::cube ? std::clamp<int64_t>(x, 0, width - 1)
+                                                   : (x + width) % width;
+    y = std::clamp<int64_t>(y, 0, height - 1);
+    return Double3(image_.texels[panel * image_.width * image_.height + static_cast<size_t>(y * width + x)]);
 }
 
 Double3 SkyMap::radiance(Double3 direction) const
 {
-    return Double3(image_.texels[find(direction).texel]);
+    const Place place = find(direction);
+    const double left = std::floor(place.x - 0.5), top = std::floor(place.y - 0.5);
+    const double right_share = place.x - 0.5 - left, lower_share = place.y - 0.5 - top;
+    const auto row = [&](int64_t y)
+    {
+        const auto x = static_cast<int64_t>(left);
+        return texel(place.panel, x, y) * (1 - right_share) + texel(place.panel, x + 1, y) * right_share;
+    };
+    const auto y = static_cast<int64_t>(top);
+    return row(y) * (1 - lower_share) + row(y + 1) * lower_share;
 }
 
 Double3 SkyMap::pick(double choice, double u, double v) const
@@ -130,7 +150,11 @@ Double3 SkyMap::pick(double choice, double u, double v) const
 double SkyMap::density(Double3 direction) const
 {
     const Place place = find(direction);
-    const double weight = cumulated_[place.texel] - (place.texel == 0 ? 0 : cumulated_[place.texel - 1]);
+    const auto inside = [](double at, uint32_t count)
+    { return static_cast<size_t>(std::clamp(at, 0.0, count - 1.0)); };
+    const size_t texel = (place.panel * image_.height + inside(place.y, image_.height)) * image_.width +
+                         inside(place.x, image_.width);
+    const double weight = cumulated_[texel] - (texel == 0 ? 0 : cumulated_[texel - 1]);
     return weight / cumulated_.back() * image_.width * image_.height / place.solid_angle;
 }
 
