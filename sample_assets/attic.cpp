@@ -18,11 +18,6 @@ constexpr float kNorthHeight = 1.15f, kRidgeHeight = 3.05f, kSouthHeight = 1.45f
 constexpr float kThick = 0.24f;                 ///< of walls, floor and roof
 constexpr float kWallTop = kRidgeHeight + 0.1f; ///< walls end above the ceiling
 
-TriangleMesh makeBlock(Float3 low, Float3 high)
-{
-    return makeBox((low + high) * 0.5f, (high - low) * 0.5f, 1);
-}
-
 TriangleMesh makeTurnedBox(Float3 center, Float3 half, float angle_rad)
 {
     return transformed(makeBox({0, 0, 0}, half, 1),
@@ -43,19 +38,21 @@ TriangleMesh makeRoof(float west, float east, Float2 north, Float2 south)
 
 void addShell(Document& document, int plaster, int terracotta, int boards)
 {
-    TriangleMesh walls = makeBlock({kWest - kThick, 0, kNorth - kThick}, {kEast + kThick, kWallTop, kNorth});
-    append(walls, makeBlock({kWest - kThick, 0, kNorth}, {kWest, kWallTop, kSouth + kThick}));
-    append(walls, makeBlock({kWest, 0, kSouth}, {kSideWingEast + kThick, kWallTop, kSouth + kThick}));
-    append(walls, makeBlock({kSideWingEast, 0, kRidge + kThick}, {kSideWingEast + kThick, kWallTop, kSouth}));
-    append(walls, makeBlock({kSideWingEast, 0, kRidge}, {kEast + kThick, kWallTop, kRidge + kThick}));
+    TriangleMesh walls =
+        makeBlock({kWest - kThick, 0, kNorth - kThick}, {kEast + kThick, kWallTop, kNorth}, 1);
+    append(walls, makeBlock({kWest - kThick, 0, kNorth}, {kWest, kWallTop, kSouth + kThick}, 1));
+    append(walls, makeBlock({kWest, 0, kSouth}, {kSideWingEast + kThick, kWallTop, kSouth + kThick}, 1));
+    append(walls,
+           makeBlock({kSideWingEast, 0, kRidge + kThick}, {kSideWingEast + kThick, kWallTop, kSouth}, 1));
+    append(walls, makeBlock({kSideWingEast, 0, kRidge}, {kEast + kThick, kWallTop, kRidge + kThick}, 1));
     // the eastern wall around a window from 0.8 to 2 m
     constexpr float kFrom = 0.13f, kTo = 1.52f, kSill = 0.83f, kLintel = 2.04f;
-    append(walls, makeBlock({kEast, 0, kNorth}, {kEast + kThick, kSill, kRidge}));
-    append(walls, makeBlock({kEast, kLintel, kNorth}, {kEast + kThick, kWallTop, kRidge}));
-    append(walls, makeBlock({kEast, kSill, kNorth}, {kEast + kThick, kLintel, kFrom}));
-    append(walls, makeBlock({kEast, kSill, kTo}, {kEast + kThick, kLintel, kRidge}));
+    append(walls, makeBlock({kEast, 0, kNorth}, {kEast + kThick, kSill, kRidge}, 1));
+    append(walls, makeBlock({kEast, kLintel, kNorth}, {kEast + kThick, kWallTop, kRidge}, 1));
+    append(walls, makeBlock({kEast, kSill, kNorth}, {kEast + kThick, kLintel, kFrom}, 1));
+    append(walls, makeBlock({kEast, kSill, kTo}, {kEast + kThick, kLintel, kRidge}, 1));
     const TriangleMesh floor =
-        makeBlock({kWest - kThick, -kThick, kNorth - kThick}, {kEast + kThick, 0, kSouth + kThick});
+        makeBlock({kWest - kThick, -kThick, kNorth - kThick}, {kEast + kThick, 0, kSouth + kThick}, 1);
     TriangleMesh roof = makeRoof(kWest, kEast, {kNorth, kNorthHeight}, {kRidge, kRidgeHeight});
     append(roof, makeRoof(kWest, kSideWingEast, {kRidge, kRidgeHeight}, {kSouth, kSouthHeight}));
     addObject(document, "shell", {{walls, plaster}, {floor, terracotta}, {roof, boards}});

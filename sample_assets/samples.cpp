@@ -4,6 +4,7 @@
 #include "sample_assets/attic.h"
 #include "sample_assets/character.h"
 #include "sample_assets/field.h"
+#include "sample_assets/gallery.h"
 #include "sample_assets/grass.h"
 #include "sample_assets/hearth_scene.h"
 #include "sample_assets/land.h"
@@ -83,6 +84,11 @@ Document generateRoom(const SampleOptions&)
 Document generateAttic(const SampleOptions&)
 {
     return makeAttic();
+}
+
+Document generateGallery(const SampleOptions&)
+{
+    return makeGallery();
 }
 
 Document generateOutdoor(const SampleOptions&)
@@ -169,6 +175,8 @@ constexpr std::array kKinds{
                generateRoom},
     SampleKind{"attic", "an L-shaped room below slanted roofs, lit through a window and by a lantern",
                generateAttic},
+    SampleKind{"gallery", "three bays that eight lamps light, each to be dimmed: for baked light",
+               generateGallery},
     SampleKind{"outdoor", "a yard: corners, an overhang, crates, tufts of grass, under sky and sun",
                generateOutdoor},
     SampleKind{"spheres", "spheres of five roughnesses, dielectric and metal, under sky and sun",

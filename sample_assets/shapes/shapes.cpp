@@ -98,6 +98,11 @@ TriangleMesh makeBox(Float3 center, Float3 half, float uv_per_metre)
     return box;
 }
 
+TriangleMesh makeBlock(Float3 low, Float3 high, float uv_per_metre)
+{
+    return makeBox((low + high) * 0.5f, (high - low) * 0.5f, uv_per_metre);
+}
+
 TriangleMesh makeLathe(const std::vector<Float2>& profile, uint32_t segments)
 {
     TriangleMesh mesh = makeGrid(segments, static_cast<uint32_t>(profile.size()) - 1,

@@ -17,6 +17,9 @@ TriangleMesh makeGrid(uint32_t columns, uint32_t rows,
 /// Make a box with sides [center - half, center + half]; UVs in metres times uv_per_metre, one chart a side.
 TriangleMesh makeBox(Float3 center, Float3 half, float uv_per_metre);
 
+/// Make the same box from its lowest and highest corner.
+TriangleMesh makeBlock(Float3 low, Float3 high, float uv_per_metre);
+
 /// Make a surface of revolution about +Y through the (radius, height) points of `profile`, from top to bottom
 /// outside.
 TriangleMesh makeLathe(const std::vector<Float2>& profile, uint32_t segments);

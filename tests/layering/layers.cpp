@@ -95,6 +95,7 @@ const std::vector<Layer>& layers()
         {"cook/bricks/program", {"formats", "cook/command_line", "cook/tools", "cook/bricks/light"}},
 
         {"cook/receivers/bake", {"formats", "cook/sampling", "cook/ray_scene"}},
+        {"cook/receivers/unwrap", {"formats", "cook/mesh", "cook/receivers/bake"}},
         {"cook/receivers/scene",
          {"formats", "cook/bricks/voxels", "cook/bricks/light", "cook/receivers/bake"}},
 
@@ -112,7 +113,7 @@ const std::vector<Layer>& layers()
         // from sources to parts
         {"pipelines/import/part",
          {"formats", "cook/json", "cook/tools", "cook/mesh", "cook/animation_bounds",
-          "cook/animation_compression"}},
+          "cook/animation_compression", "cook/receivers/bake", "cook/receivers/unwrap"}},
         {"pipelines/images", {"formats"}},
         {"pipelines/import/images", {"formats", "pipelines/images", "pipelines/import/part"}},
         {"pipelines/import/source", {"formats", "cook/tools", "pipelines/import/images"}},

@@ -28,8 +28,8 @@ void expectSuccess(Program program, const std::vector<std::string>& arguments)
 TEST(Samples, areTheSameBytesEveryTime)
 {
     const ScratchFolder folder;
-    for (const char* kind :
-         {"rock", "terrain", "grass", "room", "attic", "outdoor", "spheres", "character", "transforms"})
+    for (const char* kind : {"rock", "terrain", "grass", "room", "attic", "gallery", "outdoor", "spheres",
+                             "character", "transforms"})
     {
         for (const char* file : {"first.glb", "second.glb"})
             expectSuccess(Program::samples, {kind, "--texture-size", "64", "-o", folder.path(file)});

@@ -20,6 +20,9 @@ constexpr float kUvTolerance = 1.0f / 1024;
 /// Area in UV of a triangle that has none, from which on its texels would be arbitrary.
 constexpr double kFlatArea = 1e-12;
 
+/// Texels each way of the rectangle in which overlap is found before the density is known.
+constexpr uint32_t kOverlapSide = 256;
+
 double areaInUv(const Triangle& triangle)
 {
     const Float2 a = triangle.uvs[1] - triangle.uvs[0], b = triangle.uvs[2] - triangle.uvs[0];
@@ -85,6 +88,13 @@ UvCheck checkUvs(std::span<const Triangle> triangles)
 UvCheck checkOverlap(const TexelDomain& domain)
 {
     return domain.overlap > kMaxOverlap ? UvCheck{UvUse::overlapping, domain.overlap} : UvCheck{};
+}
+
+UvCheck checkUvsAndOverlap(std::span<const Triangle> triangles)
+{
+    const UvCheck check = checkUvs(triangles);
+    return check.use == UvUse::usable ? checkOverlap(rasterise(triangles, 0, kOverlapSide, kOverlapSide, 0))
+                                      : check;
 }
 
 std::string describe(const UvCheck& check)

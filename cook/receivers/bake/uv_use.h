@@ -50,6 +50,9 @@ UvCheck checkUvs(std::span<const Triangle> triangles);
 /// Check the overlap of a rasterised domain.
 UvCheck checkOverlap(const TexelDomain& domain);
 
+/// Check all of UVs whose density is not known yet.
+UvCheck checkUvsAndOverlap(std::span<const Triangle> triangles);
+
 /// Return a clause for a message, such as "12.5 % of its UVs overlap". Empty if usable.
 std::string describe(const UvCheck& check);
 

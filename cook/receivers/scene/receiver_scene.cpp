@@ -16,9 +16,6 @@ namespace
 /// UV sets in the order in which they are tried.
 constexpr std::array<uint32_t, 4> kUvSetOrder{1, 2, 3, 0};
 
-/// Texels each way of the rectangle in which the overlap of a UV set is found before its density is known.
-constexpr uint32_t kOverlapSide = 256;
-
 /// Length of a triangle's longest edge in the units that choose the mips of its textures: about eight texels,
 /// for the four points that are read.
 constexpr double kTextureSize = 4;
@@ -139,12 +136,6 @@ void setUvs(const SourceInstance& instance, uint32_t set, std::span<Triangle> tr
         triangles[t].uvs = instance.triangles[t].uv_sets[set];
 }
 
-bool canUseUvs(std::span<const Triangle> triangles)
-{
-    return checkUvs(triangles).use == UvUse::usable &&
-           checkOverlap(rasterise(triangles, 0, kOverlapSide, kOverlapSide, 0)).use == UvUse::usable;
-}
-
 /// Give triangles the first set of UVs that can be used, or of those that are there the first tried.
 uint32_t chooseUvs(const SourceInstance& instance, std::span<Triangle> triangles)
 {
@@ -154,7 +145,7 @@ uint32_t chooseUvs(const SourceInstance& instance, std::span<Triangle> triangles
         if ((instance.uv_sets >> set & 1u) == 0)
             continue;
         setUvs(instance, set, triangles);
-        if (canUseUvs(triangles))
+        if (checkUvsAndOverlap(triangles).use == UvUse::usable)
             return set;
         chosen = chosen == kInvalidIndex ? set : chosen;
     }

@@ -4,8 +4,10 @@
 #include "pipelines/import/gltf/skinning.h"
 #include "pipelines/import/part/bake_transform.h"
 #include "pipelines/import/part/import_options.h"
+#include "pipelines/import/part/receiver_uvs.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace hearth::import
@@ -50,6 +52,7 @@ private:
     Result<MeshWithSummary> read(const MeshUse& use);
     MeshUse meshUseForLod(const GltfLodChain& chain, const GltfLod& lod) const;
     tools::LodLabel makeLabel(const GltfLod& lod) const;
+    double texelSizeInMesh() const;
     std::optional<Transform> objectFromLod(const GltfLodChain& chain, const GltfLod& lod,
                                            const MeshSummary& summary) const;
 
@@ -91,6 +94,26 @@ Result<MeshWriter::MeshWithSummary> MeshWriter::read(const MeshUse& use)
     return MeshWithSummary{std::move(mesh), std::move(summary)};
 }
 
+/// Return the size of receivers' texels in the next mesh, by the smallest node that draws it once; 0 if it
+/// gets no UVs for them: no such node, or levels of detail that the source brings without such UVs.
+double MeshWriter::texelSizeInMesh() const
+{
+    const auto mesh = static_cast<uint32_t>(summaries_.size());
+    const auto is_of_mesh = [&](const GltfLodChain& chain) { return uses_.of_node[chain.node] == mesh; };
+    if (context_.options.receiver_texel_size == 0 || std::ranges::any_of(lods_.chains, is_of_mesh))
+        return 0;
+    double least = 0;
+    for (size_t node = 0; node < model_.nodes.size(); ++node)
+    {
+        if (uses_.of_node[node] != mesh || model_.nodes[node].has_instancing)
+            continue;
+        const double scale = std::cbrt(std::abs(determinant(world_from_node_[node])));
+        if (scale > 0 && (least == 0 || scale < least))
+            least = scale;
+    }
+    return least > 0 ? context_.options.receiver_texel_size / least : 0;
+}
+
 Status MeshWriter::writeMesh(const MeshUse& use)
 {
     if (lods_.lod_only[use.mesh])
@@ -101,6 +124,8 @@ Status MeshWriter::writeMesh(const MeshUse& use)
         return context_.part.addMesh(empty);
     }
     HEARTH_ASSIGN_OR_RETURN(MeshWithSummary read, this->read(use));
+    if (const double texel_size = texelSizeInMesh(); texel_size > 0)
+        addReceiverUvs(read.mesh, texel_size);
     summaries_.push_back(std::move(read.summary));
     return context_.part.addMesh(read.mesh);
 }

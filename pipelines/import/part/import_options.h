@@ -46,6 +46,9 @@ struct ImportOptions
     ArtistImages artist;
     /// Edges sharper than this stay hard in a mesh without normals: 60 degrees.
     float crease_angle_rad = 1.0471976f;
+    /// Size of the texels of baked light, in the source's unit of length, for which meshes get UVs that have
+    /// none; 0: they get none.
+    double receiver_texel_size = 0;
     tools::DependencyList* reads = nullptr; ///< records the files that are read; null: not recorded
 };
 

@@ -6,6 +6,7 @@
 #include "pipelines/import/part/generate_tangents.h"
 #include "pipelines/import/part/import_options.h"
 #include "pipelines/import/part/part_builder.h"
+#include "pipelines/import/part/receiver_uvs.h"
 #include "pipelines/import/scans/obj_materials.h"
 #include "pipelines/import/scans/scan_polygons.h"
 #include "pipelines/import/scans/text_cursor.h"
@@ -134,6 +135,9 @@ Status importScan(const std::string& path, std::span<const std::byte> bytes, con
         generateNormals(mesh, options.crease_angle_rad);
     if (usesNormalMaps(part) && !mesh.uvs[0].empty())
         generateTangents(mesh, 0);
+
+    if (options.receiver_texel_size > 0)
+        addReceiverUvs(mesh, options.receiver_texel_size);
 
     part.counts.triangles = mesh.triangleCount();
     part.counts.faces = mesh.face_count;
