@@ -104,6 +104,8 @@ enum class IssueClass : uint8_t
       "export meshes of triangles: points and lines are not drawn")                                          \
     X(lod_coverage, 1405, warning, "screen coverages of levels of detail are not used",                      \
       "none needed: a level is drawn while its error is too small to see; extras keep the numbers")          \
+    X(receiver_uvs, 1406, warning, "the UVs of a mesh cannot address baked light; it has no receivers",      \
+      "give the mesh a second UV set without overlaps, within 0 to 1")                                       \
     X(size_outlier, 1410, warning, "a source is much larger or smaller than the others of its cook",         \
       "if its unit is wrong, set import.scale in a rule")                                                    \
     X(profile_syntax, 1500, config, "a file of settings is not valid TOML",                                  \

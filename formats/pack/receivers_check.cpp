@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/pack/check_tools.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace hearth::formats::check
@@ -83,8 +84,19 @@ Status checkLamps(const PackView& view, const ReceiverTables& tables)
     return success();
 }
 
-/// Check the rectangles, and collect their texels.
-Status collectRects(const PackView& view, const ReceiverTables& tables, TexelSet& texels)
+/// Add the texels around a rectangle that may receive, too: bilinear taps at its edge read them.
+void addBorder(const ReceiverAtlasRecord& atlas, const ReceiverRectRecord& rect, TexelSet& texels)
+{
+    const uint32_t left = rect.x - (rect.x > 0 ? 1 : 0), top = rect.y - (rect.y > 0 ? 1 : 0);
+    const uint32_t right = std::min(rect.x + rect.width + 1, atlas.width);
+    const uint32_t bottom = std::min(rect.y + rect.height + 1, atlas.height);
+    for (uint32_t y = top; y < bottom; ++y)
+        for (uint32_t x = left; x < right; ++x)
+            texels.add(x, y);
+}
+
+/// Check the rectangles, and collect their texels and those around them.
+Status collectTexels(const PackView& view, const ReceiverTables& tables, TexelSet& texels)
 {
     for (size_t i = 0; i < tables.rects.size(); ++i)
     {
@@ -103,6 +115,8 @@ Status collectRects(const PackView& view, const ReceiverTables& tables, TexelSet
                 if (!texels.add(x, y))
                     return makeError(view, Issue::meaning_value, kRectKind, i, "it overlaps another one");
     }
+    for (const ReceiverRectRecord& rect : tables.rects)
+        addBorder(tables.atlas, rect, texels);
     return success();
 }
 
@@ -141,7 +155,7 @@ Status checkBlock(const PackView& view, const ReceiverTables& tables, size_t i, 
 }
 
 /// Check the places of a block's texels. All colours are allowed.
-/// texels  of the rectangles, without those of earlier blocks; the block's are taken out
+/// texels  at the rectangles, without those of earlier blocks; the block's are taken out
 Status checkPlaces(const PackView& view, const ReceiverTables& tables, size_t i, TexelSet& texels)
 {
     const ReceiverBlockRecord& block = tables.blocks[i];
@@ -162,7 +176,7 @@ Status checkPlaces(const PackView& view, const ReceiverTables& tables, size_t i,
                          receiverOrder(x, y))
             return wrong(Issue::meaning_order, " does not follow the one before");
         if (!texels.remove(x, y))
-            return wrong(Issue::meaning_value, " is in no rectangle, or in an earlier block");
+            return wrong(Issue::meaning_value, " is at no rectangle, or in an earlier block");
     }
     return success();
 }
@@ -206,7 +220,7 @@ Status checkReceiverTables(const PackView& view)
     HEARTH_TRY(checkAtlas(view, tables));
     HEARTH_TRY(checkLamps(view, tables));
     TexelSet texels(tables.atlas);
-    HEARTH_TRY(collectRects(view, tables, texels));
+    HEARTH_TRY(collectTexels(view, tables, texels));
     return checkBlocks(view, tables, texels);
 }
 

@@ -6,6 +6,8 @@
 #include "formats/gpu_shared/receivers/receivers.h"
 #include "formats/records/container.h"
 
+#include <array>
+
 namespace hearth::formats
 {
 
@@ -14,6 +16,10 @@ inline constexpr uint32_t kChunkReceiverLamps = fourCC("RCVL");  ///< ReceiverLa
 inline constexpr uint32_t kChunkReceiverRects = fourCC("RCVI");  ///< ReceiverRectRecord[]
 inline constexpr uint32_t kChunkReceiverBlocks = fourCC("RCVB"); ///< ReceiverBlockRecord[]
 inline constexpr uint32_t kChunkReceiverWords = fourCC("RCVW");  ///< u32[], of all blocks
+
+/// All chunks of an atlas.
+inline constexpr std::array kReceiverChunks{kChunkReceivers, kChunkReceiverLamps, kChunkReceiverRects,
+                                            kChunkReceiverBlocks, kChunkReceiverWords};
 
 /// Lamps of an atlas, at most: blocks name them by 16 bits.
 inline constexpr uint32_t kMaxReceiverLamps = 1u << 16;

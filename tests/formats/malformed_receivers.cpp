@@ -98,7 +98,11 @@ const std::vector<MalformedPack>& malformedReceivers()
         {"receiverPlaceTwice", Issue::meaning_order, "receiver block 0",
          [](PackModel& p) { p.receiver_words[1] = p.receiver_words[0]; }},
         {"receiverPlaceOutsideRects", Issue::meaning_value, "receiver block 0",
-         [](PackModel& p) { p.receiver_words[1] = 4 | 2 << 14; }},
+         [](PackModel& p)
+         {
+             p.receiver_rects[1].height = 1;
+             p.receiver_words[1] = 4 | 2 << 14;
+         }},
         {"receiverTexelTwice", Issue::meaning_value, "receiver block 1",
          [](PackModel& p)
          {

@@ -314,6 +314,13 @@ INSTANTIATE_TEST_SUITE_P(Surroundings, MalformedPackTest, testing::ValuesIn(malf
 INSTANTIATE_TEST_SUITE_P(Bricks, MalformedPackTest, testing::ValuesIn(malformedBricks()), kCaseName);
 INSTANTIATE_TEST_SUITE_P(Hierarchy, MalformedPackTest, testing::ValuesIn(malformedHierarchies()), kCaseName);
 
+TEST(CheckReceivers, allowsTexelsBesideRectangles)
+{
+    PackModel model = smallPack();
+    model.receiver_words[1] = 4 | 2 << 14; // below the second rectangle, of 2 x 2 texels
+    EXPECT_EQ(refusal(model), "");
+}
+
 TEST(MalformedPacks, haveOneForEveryIssueOfMeaning)
 {
     for (const IssueInfo& info : allIssues())
