@@ -9,9 +9,12 @@
 namespace hearth::receivers
 {
 
+inline constexpr double kMinTexelsPerMetre = 1.0 / 1024, kMaxTexelsPerMetre = 1024;
+inline constexpr uint32_t kMaxBounces = 256;
+
 struct BakeSettings
 {
-    double texels_per_metre = 16; ///< above 0
+    double texels_per_metre = 16; ///< kMinTexelsPerMetre to kMaxTexelsPerMetre
     float patch_size = 0.25f;     ///< metres: light of surfaces without texels (Elements)
     uint32_t bounces = 32;        ///< at most; fewer where light no longer changes. 0: direct light alone
 };
@@ -41,7 +44,7 @@ struct BakedReceivers
     std::vector<BakedTexel> texels;            ///< by rows of the atlas
     size_t light_count = 0;
     /// Linear Rec.709, of each texel, and of each light of the scene in its order: for a lamp of I candela at
-    /// d metres I cos / d^2 before bounces.
+    /// d metres I cos / d^2 before bounces; for a sun bounces alone.
     std::vector<Float3> irradiance;
     uint64_t shadow_rays = 0, gather_rays = 0;
 

@@ -38,7 +38,9 @@ std::vector<float> computeDirect(const BakeScene& scene, const BakeRays& rays, c
         float* sums = &direct[element * 3 * count];
         for (size_t k = 0; k < count; ++k)
         {
-            const Float3 light = lights.at(first + k, point, seed, traced) * share;
+            const Float3 light = (scene.isSky(first + k) ? table.skyIrradiance(element)
+                                                         : lights.at(first + k, point, seed, traced)) *
+                                 share;
             for (int channel = 0; channel < 3; ++channel)
                 *sums++ += light[channel];
         }
@@ -68,6 +70,17 @@ std::vector<float> findGreatest(const std::vector<float>& values, size_t count)
     for (size_t i = 0; i < values.size(); ++i)
         greatest[i / 3 % count] = std::max(greatest[i / 3 % count], values[i]);
     return greatest;
+}
+
+/// Leave of suns what arrives after a bounce.
+void removeDirectOfSuns(const BakeScene& scene, size_t first, size_t count, const std::vector<float>& direct,
+                        std::vector<float>& irradiance)
+{
+    for (size_t k = 0; k < count; ++k)
+        if (scene.isSun(first + k))
+            for (size_t i = 3 * k; i < direct.size(); i += 3 * count)
+                for (size_t channel = i; channel < i + 3; ++channel)
+                    irradiance[channel] -= direct[channel];
 }
 
 /// Set the light that elements send out, over 1 / pi: albedo times irradiance.
@@ -122,6 +135,7 @@ GroupLight computeLight(const BakeScene& scene, const BakeRays& rays, const Elem
         outgoing.swap(next);
         is_settled = !has_changed;
     }
+    removeDirectOfSuns(scene, first, count, direct, light.irradiance);
     return light;
 }
 

@@ -11,7 +11,8 @@ namespace hearth::receivers
 /// two cache lines for all of them.
 inline constexpr size_t kLightGroup = 8;
 
-/// Irradiance of each element under each light of a group, 3 values each.
+/// Irradiance of each element under each light of a group, 3 values each. Of suns it is what arrives after a
+/// bounce: a game draws their own light with sharp shadows.
 struct GroupLight
 {
     std::vector<float> irradiance;

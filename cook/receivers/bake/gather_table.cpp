@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <numbers>
 
 namespace hearth::receivers
 {
@@ -18,6 +19,11 @@ namespace
 
 /// Seed of the gather rays; those of direct light have others.
 constexpr uint64_t kGatherSeed = 1;
+
+uint32_t countOpenRays(uint32_t open)
+{
+    return static_cast<uint32_t>(std::popcount(open)) * kPointRays;
+}
 
 /// Return a direction by the cosine about the normal. Those that would begin behind the triangle are
 /// mirrored at it.
@@ -42,36 +48,59 @@ ReceivingPoint receivingPoint(const BakeScene& scene, const Element& element, si
 }
 
 GatherTable::GatherTable(const BakeScene& scene, const BakeRays& rays, const Elements& elements)
-    : hits_(elements.list().size() * kElementRays, kInvalidIndex), open_(elements.list().size())
+    : hits_(elements.list().size() * kElementRays, kInvalidIndex),
+      open_(elements.list().size()),
+      sky_(scene.sky ? elements.list().size() : 0)
 {
-    const auto tracePoint = [&](size_t element, size_t point)
+    const auto traceElement = [&](size_t element)
     {
-        const ReceivingPoint from = receivingPoint(scene, elements.list()[element], point, rays.offset);
-        const sampling::Frame frame = sampling::frameAround(from.normal);
-        const uint64_t seed = sampling::deriveSeed(kGatherSeed, element);
-        uint32_t inside = 0;
-        for (uint32_t i = 0; i < kPointRays; ++i)
+        Float3 sky;
+        for (size_t point = 0; point < kTexelPoints; ++point)
         {
-            const auto number = static_cast<uint32_t>(point) * kPointRays + i;
-            const Float3 direction = gatherDirection(from, frame, sampling::owenSobol(number, seed));
-            const auto hit = rays.triangles.nearest(from.position, direction);
-            if (!hit)
+            const TracedPoint traced = tracePoint(scene, rays, elements, element, point);
+            if (!traced.is_open)
                 continue;
-            const Triangle& triangle = scene.triangles[hit->triangle];
-            const bool is_front = dot(crossEdges(triangle), direction) <= 0;
-            inside += !is_front && !triangle.double_sided ? 1u : 0u;
-            hits_[element * kElementRays + number] = elements.find({hit->triangle, hit->weights}, is_front);
+            open_[element] |= static_cast<uint8_t>(1u << point);
+            sky += traced.sky;
         }
-        return 2 * inside <= kPointRays;
+        if (scene.sky && open_[element] != 0)
+            sky_[element] =
+                sky * (std::numbers::pi_v<float> / static_cast<float>(countOpenRays(open_[element])));
     };
     tbb::parallel_for(tbb::blocked_range<size_t>(0, open_.size(), 64),
                       [&](const tbb::blocked_range<size_t>& range)
                       {
                           for (size_t element = range.begin(); element != range.end(); ++element)
-                              for (size_t point = 0; point < kTexelPoints; ++point)
-                                  if (tracePoint(element, point))
-                                      open_[element] |= static_cast<uint8_t>(1u << point);
+                              traceElement(element);
                       });
+}
+
+GatherTable::TracedPoint GatherTable::tracePoint(const BakeScene& scene, const BakeRays& rays,
+                                                 const Elements& elements, size_t element, size_t point)
+{
+    const ReceivingPoint from = receivingPoint(scene, elements.list()[element], point, rays.offset);
+    const sampling::Frame frame = sampling::frameAround(from.normal);
+    const uint64_t seed = sampling::deriveSeed(kGatherSeed, element);
+    TracedPoint traced;
+    uint32_t inside = 0;
+    for (uint32_t i = 0; i < kPointRays; ++i)
+    {
+        const auto number = static_cast<uint32_t>(point) * kPointRays + i;
+        const Float3 direction = gatherDirection(from, frame, sampling::owenSobol(number, seed));
+        const auto hit = rays.triangles.nearest(from.position, direction);
+        if (!hit)
+        {
+            if (scene.sky)
+                traced.sky += shared::skyRadiance(*scene.sky, direction);
+            continue;
+        }
+        const Triangle& triangle = scene.triangles[hit->triangle];
+        const bool is_front = dot(crossEdges(triangle), direction) <= 0;
+        inside += !is_front && !triangle.double_sided ? 1u : 0u;
+        hits_[element * kElementRays + number] = elements.find({hit->triangle, hit->weights}, is_front);
+    }
+    traced.is_open = 2 * inside <= kPointRays;
+    return traced;
 }
 
 void GatherTable::gather(size_t element, std::span<const float> values, size_t count, float* mean) const
@@ -94,7 +123,7 @@ void GatherTable::gather(size_t element, std::span<const float> values, size_t c
                 mean[k] += value[k];
         }
     }
-    const float share = 1 / static_cast<float>(static_cast<uint32_t>(std::popcount(open)) * kPointRays);
+    const float share = 1 / static_cast<float>(countOpenRays(open));
     for (size_t k = 0; k < count; ++k)
         mean[k] *= share;
 }

@@ -34,9 +34,22 @@ public:
     /// mean    `count` values, set
     void gather(size_t element, std::span<const float> values, size_t count, float* mean) const;
 
+    /// Return the irradiance that the sky causes at an element without a bounce: pi times the mean over the
+    /// open points' rays of the sky's radiance, 0 for rays that meet a triangle.
+    Float3 skyIrradiance(size_t element) const { return sky_.empty() ? Float3{} : sky_[element]; }
+
 private:
+    struct TracedPoint
+    {
+        bool is_open = false;
+        Float3 sky; ///< sum of its radiance over the rays that meet no triangle
+    };
+    TracedPoint tracePoint(const BakeScene& scene, const BakeRays& rays, const Elements& elements,
+                           size_t element, size_t point);
+
     std::vector<uint32_t> hits_; ///< kElementRays of each element, those of a point together
     std::vector<uint8_t> open_;
+    std::vector<Float3> sky_; ///< irradiance; empty without a sky
 };
 
 } // namespace hearth::receivers

@@ -5,6 +5,8 @@
 #include "cook/receivers/bake/uv_use.h"
 #include "formats/base/index.h"
 
+#include <algorithm>
+
 namespace hearth::receivers
 {
 
@@ -192,15 +194,20 @@ Status checkTextures(const bricks::StaticScene& scene)
 
 } // namespace
 
-Result<ReceiverScene> makeReceiverScene(const bricks::StaticScene& scene)
+Result<ReceiverScene> makeReceiverScene(const bricks::StaticScene& scene, const shared::SceneProbes& probes)
 {
     HEARTH_ASSIGN_OR_RETURN(const std::vector<SourceInstance> instances, readInstances(scene));
     HEARTH_TRY(checkTextures(scene));
-    const shared::SceneLighting lighting = bricks::makeSceneLighting(scene);
+    const shared::SceneLighting lighting = bricks::makeSceneLighting(scene, probes);
     ReceiverScene receivers;
     receivers.bake.instance_count = static_cast<uint32_t>(instances.size());
+    receivers.bake.sky = lighting.sky;
+    receivers.sky_image = lighting.sky_image;
     for (const shared::Light& light : lighting.lights)
         receivers.bake.lamps.push_back({light, 0});
+    receivers.has_default_sun =
+        !lighting.lights.empty() && std::ranges::all_of(scene.sources, [](const bricks::SourceParts& source)
+                                                        { return source.scene.lights().empty(); });
     for (uint32_t i = 0; i < instances.size(); ++i)
         addInstance(instances[i], i, lighting.exposure, receivers);
     return receivers;

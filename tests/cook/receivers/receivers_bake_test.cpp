@@ -40,6 +40,13 @@ Lamp sun(Float3 direction, float lux)
     return lamp;
 }
 
+shared::Sky constantSky(Float3 radiance)
+{
+    shared::Sky sky;
+    sky.zenith = sky.horizon = sky.ground = radiance;
+    return sky;
+}
+
 /// Light of all triangles of a scene from the given one on.
 MeshLight shineAll(const BakeScene& scene, size_t first, Float3 radiance)
 {
@@ -183,6 +190,7 @@ TEST(ReceiversBake, staysDarkInASealedRoom)
         scene.lamps = {pointLamp({0, 0, 5}, {1e6f, 1e6f, 1e6f}), pointLamp({3, 0, 0.2f}, {1e6f, 1e6f, 1e6f}),
                        sun({1, 1, -1}, 1e6f), sun({0, 0.1f, 1}, 1e6f)};
         scene.lamps[0].radius = 0.5f;
+        scene.sky = constantSky({1e6f, 1e6f, 1e6f});
         const BakedReceivers baked = bake(scene, 16);
         for (const Float3& light : baked.irradiance)
             ASSERT_EQ(light, Float3{}) << angle;
@@ -378,6 +386,135 @@ TEST(ReceiversBake, hasNoLightInsideOfWalls)
     EXPECT_GT(baked.texels.size(), 64u * 64 - 32 * 32);
 }
 
+TEST(ReceiversBake, hasTheLightOfTheSkyOverAPlane)
+{
+    // the gradient goes along y: the plane at z = 0 sees all of it, that at y = 0 what is above the horizon
+    shared::Sky sky;
+    sky.zenith = {0.2f, 0.5f, 1};
+    sky.horizon = {1, 0.8f, 0.6f};
+    sky.ground = {0.1f, 0.05f, 0};
+    for (const bool is_level : {false, true})
+    {
+        BakeScene scene = makeFloor();
+        if (is_level)
+        {
+            scene.triangles.clear();
+            addQuad(scene.triangles, {-2, 0, 2}, {4, 0, 0}, {0, 0, -4}, kGrey, 0);
+        }
+        scene.sky = sky;
+        // rings and sectors of equal projected solid angle
+        constexpr int kRings = 400, kSectors = 400;
+        Double3 expected;
+        for (int i = 0; i < kRings * kSectors; ++i)
+        {
+            const double radius = std::sqrt((i / kSectors + 0.5) / kRings),
+                         turn = 2 * std::numbers::pi * (i % kSectors + 0.5) / kSectors;
+            const double across = radius * std::cos(turn), along = radius * std::sin(turn),
+                         up = std::sqrt(1 - radius * radius);
+            const Double3 direction = is_level ? Double3{across, up, along} : Double3{across, along, up};
+            expected = expected +
+                       widen(skyRadiance(sky, narrow(direction))) * (std::numbers::pi / (kRings * kSectors));
+        }
+        const BakedReceivers baked = bake(scene, 8);
+        ASSERT_EQ(baked.light_count, 1u);
+        const std::array channels{expected.x, expected.y, expected.z};
+        Double3 mean;
+        double largest = 0;
+        for (const Float3& light : baked.irradiance)
+        {
+            mean = mean + widen(light) * (1 / static_cast<double>(baked.irradiance.size()));
+            for (int channel = 0; channel < 3; ++channel)
+                largest = std::max(
+                    largest, std::abs(double{light[channel]} / channels[static_cast<size_t>(channel)] - 1));
+        }
+        std::printf("sky over a plane: a texel is off by %.2f %% at most\n", 100 * largest);
+        EXPECT_LT(largest, 0.01);
+        EXPECT_NEAR(mean.x, expected.x, 0.002 * expected.x);
+        EXPECT_NEAR(mean.y, expected.y, 0.002 * expected.y);
+        EXPECT_NEAR(mean.z, expected.z, 0.002 * expected.z);
+    }
+}
+
+TEST(ReceiversBake, hasHalfTheSkyUnderTheEdgeOfARoof)
+{
+    // a black roof over x > 0 that has no end: at x the sky is seen up to an angle of sine s before the
+    // vertical, (1 + s) / 2 of its light
+    BakeScene scene = makeFloor();
+    scene.instance_count = 2;
+    addQuad(scene.triangles, {0, -200, 1}, {0, 400, 0}, {200, 0, 0}, {}, 1, {{0.5f, 0.5f}, {0.5f, 0.5f}});
+    scene.sky = constantSky({1, 1, 1});
+    const BakedReceivers baked = bake(scene, 16);
+    double below = 0, count = 0, squares = 0;
+    for (size_t i = 0; i < baked.texels.size(); ++i)
+    {
+        if (baked.texels[i].is_copy)
+            continue;
+        const double x = double{baked.texels[i].position.x};
+        const double expected = std::numbers::pi * 0.5 * (1 - x / std::sqrt(1 + x * x));
+        const double found = double{baked.light(i)[0].x};
+        squares += (found - expected) * (found - expected) / static_cast<double>(baked.texels.size());
+        if (std::abs(x) > 0.05)
+            continue;
+        below += found;
+        count += std::numbers::pi / 2;
+    }
+    std::printf("sky beside a roof: %.2f %% of the sky's light rms\n", 100 * std::sqrt(squares) / 3.14159);
+    EXPECT_GT(count, 100);
+    EXPECT_NEAR(below / count, 1, 0.01);
+    EXPECT_LT(std::sqrt(squares), 0.02 * std::numbers::pi); // noise of 64 rays
+}
+
+TEST(ReceiversBake, hasTheSkyThatWallsGiveBack)
+{
+    // an open box under the sky, and in a black room that shines as the sky does
+    BakeScene box;
+    box.instance_count = 2;
+    addRoom(box.triangles, {0, 0, 0}, {2, 2, 1}, {0.8f, 0.6f, 0.4f}, 0);
+    std::erase_if(box.triangles, [](const Triangle& triangle) { return triangle.normals[0].z < -0.5f; });
+    ASSERT_EQ(box.triangles.size(), 10u);
+    BakeScene under_sky = box, in_room = box;
+    under_sky.sky = constantSky({1, 1, 1});
+    const size_t first = box.triangles.size();
+    addRoom(in_room.triangles, {-20, -20, -20}, {40, 40, 40}, {}, 1);
+    for (size_t t = first; t < in_room.triangles.size(); ++t)
+        in_room.triangles[t].uvs.fill({0, 0});
+    in_room.mesh_lights = {shineAll(in_room, first, {1, 1, 1})};
+    const BakedReceivers baked = bake(under_sky, 12), expected = bake(in_room, 12);
+    ASSERT_EQ(baked.texels.size(), expected.texels.size());
+    Double3 sum, expected_sum;
+    for (size_t i = 0; i < baked.texels.size(); ++i)
+    {
+        sum = sum + widen(baked.light(i)[0]);
+        expected_sum = expected_sum + widen(expected.light(i)[0]);
+    }
+    EXPECT_GT(sum.x, 1.1 * sum.z);
+    EXPECT_NEAR(sum.x / expected_sum.x, 1, 0.01);
+    EXPECT_NEAR(sum.z / expected_sum.z, 1, 0.01);
+}
+
+TEST(ReceiversBake, leavesTheDirectLightOfSunsOut)
+{
+    // a lamp that is far away is a sun, but for its own light
+    BakeScene scene;
+    scene.instance_count = 1;
+    addRoom(scene.triangles, {0, 0, 0}, {2, 2, 1}, {0.8f, 0.6f, 0.4f}, 0);
+    std::erase_if(scene.triangles, [](const Triangle& triangle) { return triangle.normals[0].z < -0.5f; });
+    constexpr float kFar = 1000;
+    const Float3 to_sun = normalizeOr({1, 0.5f, 2}, {});
+    scene.lamps = {sun(-to_sun, 2), pointLamp(to_sun * kFar, Float3{2, 2, 2} * (kFar * kFar))};
+    const BakedReceivers all = bakeReceivers(scene, {.texels_per_metre = 12}).value();
+    const BakedReceivers direct = bakeReceivers(scene, {.texels_per_metre = 12, .bounces = 0}).value();
+    double sum = 0;
+    for (size_t i = 0; i < all.texels.size(); ++i)
+    {
+        ASSERT_EQ(direct.light(i)[0], Float3{});
+        const Float3 expected = all.light(i)[1] - direct.light(i)[1];
+        ASSERT_NEAR(all.light(i)[0].x, expected.x, 0.005f + 0.02f * expected.x);
+        sum += double{expected.x};
+    }
+    EXPECT_GT(sum / static_cast<double>(all.texels.size()), 0.1);
+}
+
 TEST(ReceiversBake, isTheSameForAllThreadsAndEachLightAlone)
 {
     BakeScene scene;
@@ -389,6 +526,7 @@ TEST(ReceiversBake, isTheSameForAllThreadsAndEachLightAlone)
             pointLamp({static_cast<float>(i % 3) - 1, static_cast<float>(i / 3) - 1, 1.5f}, {1, 2, 3}));
     scene.lamps[4].radius = 0.2f;
     scene.mesh_lights = {shineAll(scene, scene.triangles.size() - 2, {1, 1, 1})};
+    scene.sky = constantSky({0.5f, 0.75f, 1});
     const BakeSettings settings{.texels_per_metre = test::kSanitized ? 4.0 : 12.0};
     std::vector<BakedReceivers> baked;
     for (const size_t threads : {size_t{1}, size_t{2}, size_t{3}})
@@ -401,6 +539,7 @@ TEST(ReceiversBake, isTheSameForAllThreadsAndEachLightAlone)
     BakeScene alone = scene;
     alone.lamps = {scene.lamps[8]};
     alone.mesh_lights.clear();
+    alone.sky.reset();
     const BakedReceivers last = bakeReceivers(alone, settings).value();
     ASSERT_EQ(last.texels.size(), baked[0].texels.size());
     for (size_t i = 0; i < last.texels.size(); ++i)
