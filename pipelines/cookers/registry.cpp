@@ -19,6 +19,7 @@ Cooker describeVisibility();
 Cooker describeSpecular();
 Cooker describeProbe();
 Cooker describeBricks();
+Cooker describeReceivers();
 Cooker describeLink();
 
 namespace
@@ -33,7 +34,7 @@ std::vector<Cooker> makeCookers()
     std::vector<Cooker> cookers{
         describeImport(), describeClusters(), describeTextures(),   describeEstimates(),  describeBudget(),
         describeTexels(), describeSkinning(), describeNeighbours(), describeVisibility(), describeSpecular(),
-        describeProbe(),  describeBricks(),   describeLink()};
+        describeProbe(),  describeBricks(),   describeReceivers(),  describeLink()};
     for (Cooker& cooker : cookers)
         for (Setting& setting : cooker.settings)
             setting.scope = cooker.scope;

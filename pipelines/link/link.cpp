@@ -13,6 +13,7 @@
 #include "pipelines/verify/verify_pack.h"
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -43,6 +44,15 @@ struct Source
     std::string name;                             ///< of the asset
     StringRef name_ref{};                         ///< in the merged strings
     TableOffsets offsets{};
+};
+
+/// Open parts of what a pack has once.
+struct OpenPackParts
+{
+    std::vector<SpecularTableRecord> specular;
+    std::optional<PackView> bricks;
+    std::optional<PackView> probe;
+    std::optional<PackView> receivers;
 };
 
 Result<PackView> openPart(const std::string& path)
@@ -179,16 +189,19 @@ Status assignOffsets(std::vector<Source>& sources, const std::string& output)
     return success();
 }
 
-Status writeMeta(ContainerWriter& writer, std::span<const Source> sources,
-                 const std::optional<PackView>& bricks, std::span<const std::string> skipped,
-                 uint64_t texture_budget, const std::string& output)
+Status writeMeta(ContainerWriter& writer, std::span<const Source> sources, const OpenPackParts& pack_parts,
+                 std::span<const std::string> skipped, uint64_t texture_budget, const std::string& output)
 {
+    std::vector<std::string_view> of_pack;
+    for (const std::optional<PackView>* const part : {&pack_parts.bricks, &pack_parts.receivers})
+        if (*part)
+            of_pack.push_back((*part)->meta());
     std::vector<PartMetas> metas;
     for (const Source& source : sources)
         metas.push_back(
             {source.import_part.meta(), source.clusters_part.meta(), source.textures_part.meta()});
     HEARTH_ASSIGN_OR_RETURN(const std::string text,
-                            mergeMeta(metas, bricks ? bricks->meta() : "", skipped, texture_budget, output));
+                            mergeMeta(metas, of_pack, skipped, texture_budget, output));
     return writer.addText(kChunkMeta, text);
 }
 
@@ -540,16 +553,32 @@ Result<std::optional<PackView>> openBricks(const std::string& path)
     HEARTH_ASSIGN_OR_RETURN(PackView part, openPart(path));
     if (!part.brickGrid().empty())
         HEARTH_TRY(checkBricks(part)); // a failure here names the part
-    else if (!isBricksMeta(part.meta()))
+    else if (!hasSettings(part.meta(), "bricks"))
         return Error{Issue::chunk_missing, path, chunkName(kChunkBrickGrid, 0),
                      "this is not a bricks part: it has no grid"};
     return std::optional<PackView>(std::move(part));
 }
 
-Status writeBricks(ContainerWriter& writer, const PackView& part)
+/// Open the part with the pack's receivers, or with the reason why it has none; nullopt if `path` is empty.
+Result<std::optional<PackView>> openReceivers(const std::string& path)
 {
-    for (const uint32_t type : kBrickChunks)
-        HEARTH_TRY(copyChunks(writer, part, type, 0));
+    if (path.empty())
+        return std::optional<PackView>();
+    HEARTH_ASSIGN_OR_RETURN(PackView part, openPart(path));
+    HEARTH_TRY(checkReceivers(part)); // a failure here names the part
+    if (part.receiverAtlases().empty() && !hasSettings(part.meta(), "receivers"))
+        return Error{Issue::chunk_missing, path, chunkName(kChunkReceivers, 0),
+                     "this is not a receivers part: it has no atlas"};
+    return std::optional<PackView>(std::move(part));
+}
+
+/// Copy the chunks of a part that a pack has once, if it has any.
+Status copyTables(ContainerWriter& writer, const std::optional<PackView>& part,
+                  std::span<const uint32_t> types)
+{
+    if (part)
+        for (const uint32_t type : types)
+            HEARTH_TRY(copyChunks(writer, *part, type, 0));
     return success();
 }
 
@@ -566,20 +595,13 @@ Result<std::optional<PackView>> openProbe(const std::string& path)
     return std::optional<PackView>(std::move(part));
 }
 
-/// Open parts of what a pack has once.
-struct OpenPackParts
-{
-    std::vector<SpecularTableRecord> specular;
-    std::optional<PackView> bricks;
-    std::optional<PackView> probe;
-};
-
 Result<OpenPackParts> openPackParts(const PackParts& parts)
 {
     OpenPackParts opened;
     HEARTH_ASSIGN_OR_RETURN(opened.specular, readSpecular(parts.specular));
     HEARTH_ASSIGN_OR_RETURN(opened.bricks, openBricks(parts.bricks));
     HEARTH_ASSIGN_OR_RETURN(opened.probe, openProbe(parts.probe));
+    HEARTH_ASSIGN_OR_RETURN(opened.receivers, openReceivers(parts.receivers));
     return opened;
 }
 
@@ -587,17 +609,14 @@ Status writeReflectionTables(ContainerWriter& writer, const OpenPackParts& parts
 {
     if (!parts.specular.empty())
         HEARTH_TRY(writer.addRecords<SpecularTableRecord>(kChunkSpecular, parts.specular));
-    if (parts.probe)
-        for (const uint32_t type : {kChunkProbes, kChunkProbeTexels})
-            HEARTH_TRY(copyChunks(writer, *parts.probe, type, 0));
-    return success();
+    return copyTables(writer, parts.probe, std::array{kChunkProbes, kChunkProbeTexels});
 }
 
 Status writePack(const std::string& path, std::span<const Source> sources, const OpenPackParts& pack_parts,
                  std::span<const std::string> skipped, uint64_t texture_budget)
 {
     HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer, ContainerWriter::create(path, ContainerKind::pack));
-    HEARTH_TRY(writeMeta(writer, sources, pack_parts.bricks, skipped, texture_budget, path));
+    HEARTH_TRY(writeMeta(writer, sources, pack_parts, skipped, texture_budget, path));
     HEARTH_TRY(writeStrings(writer, sources));
     std::vector<const PackView*> textures;
     for (const Source& source : sources)
@@ -611,8 +630,8 @@ Status writePack(const std::string& path, std::span<const Source> sources, const
     HEARTH_TRY(writeDeformedMeshes(writer, sources));
     HEARTH_TRY(writeReflectionTables(writer, pack_parts));
     HEARTH_TRY(writeSurroundings(writer, sources));
-    if (pack_parts.bricks && !pack_parts.bricks->brickGrid().empty())
-        HEARTH_TRY(writeBricks(writer, *pack_parts.bricks));
+    HEARTH_TRY(copyTables(writer, pack_parts.bricks, kBrickChunks));
+    HEARTH_TRY(copyTables(writer, pack_parts.receivers, kReceiverChunks));
     HEARTH_TRY(writePages(writer, sources));
     HEARTH_TRY(copyImages(writer, sources, images));
     return writer.finish();

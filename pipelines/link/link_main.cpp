@@ -1,5 +1,5 @@
 // hearth-link: merges import, clusters, textures and skinning parts into a pack, with a table of specular
-// occlusion, a light probe and a grid of bricks.
+// occlusion, a light probe, a grid of bricks and receivers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
 #include "formats/base/program.h"
@@ -25,6 +25,7 @@ int program(int argc, char** argv)
         .oneValueEach();
     app.addOption("--bricks", pack_parts.bricks, "bricks part, whose grid the pack gets");
     app.addOption("--probe", pack_parts.probe, "probe part, whose light probe the pack gets");
+    app.addOption("--receivers", pack_parts.receivers, "receivers part, whose atlas the pack gets");
     app.addOption("--skipped", skipped,
                   "JSON with source, code, pointer and text: an error of a source that the pack lacks, which "
                   "hearth inspect shows; once for each")

@@ -77,7 +77,7 @@ void mergePart(Json& merged, const Json& meta, const Json& asset)
 
 } // namespace
 
-Result<std::string> mergeMeta(std::span<const PartMetas> sources, std::string_view bricks,
+Result<std::string> mergeMeta(std::span<const PartMetas> sources, std::span<const std::string_view> of_pack,
                               std::span<const std::string> skipped, uint64_t texture_budget,
                               const std::string& name)
 {
@@ -106,8 +106,8 @@ Result<std::string> mergeMeta(std::span<const PartMetas> sources, std::string_vi
             mergePart(merged, meta, asset);
         }
     }
-    if (!bricks.empty())
-        mergePart(merged, Json::parse(bricks).value_or(Json()), "");
+    for (const std::string_view text : of_pack)
+        mergePart(merged, Json::parse(text).value_or(Json()), "");
     if (texture_budget != 0)
         merged["settings"]["texture_budget"] = texture_budget;
     for (const std::string& text : skipped)
@@ -120,10 +120,10 @@ Result<std::string> mergeMeta(std::span<const PartMetas> sources, std::string_vi
     return merged.dump(1, '\t');
 }
 
-bool isBricksMeta(std::string_view meta)
+bool hasSettings(std::string_view meta, const char* part)
 {
     const Json parsed = Json::parse(meta).value_or(Json());
-    return memberOrNull(memberOrNull(parsed, "settings"), "bricks").is_object();
+    return memberOrNull(memberOrNull(parsed, "settings"), part).is_object();
 }
 
 std::string readAssetName(std::string_view import_meta)

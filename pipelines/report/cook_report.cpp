@@ -421,6 +421,8 @@ std::string reportJson(const CookReport& cook)
             const Json statistics = parseStatistics(cook, i);
             if (action.cooker == "bricks" && !statistics.is_null())
                 report["bricks"]["grid"] = statistics;
+            if (action.cooker == "receivers" && !statistics.is_null())
+                report["receivers"]["atlas"] = statistics;
             if (action.cooker == "budget" && !statistics.is_null())
                 report["budget"]["share"] = statistics;
         }

@@ -211,6 +211,8 @@ std::string pageData(const std::string& report_text)
             data["stages"].push_back(stageRow(report[cooker.name]));
     if (const Json budget = report.value("budget", Json::object()); budget.contains("share"))
         data["texture_budget"] = budget["share"];
+    if (const Json receivers = report.value("receivers", Json::object()); receivers.contains("atlas"))
+        data["receivers"] = receivers["atlas"];
     data["explain"] = explanations(report);
     data["savings"] = savings();
     return data.dump();

@@ -41,6 +41,7 @@ const std::vector<Words>& commandLines()
         {"hearth-skinning", "pipe", "pipe", "-o", "out.part"},
         {"hearth-visibility", "pipe", "pipe", "-o", "out.part"},
         {"hearth-bricks", "pipe", "pipe", "pipe", "-o", "out.part"},
+        {"hearth-receivers", "pipe", "pipe", "pipe", "-o", "out.part"},
         {"hearth-bricks", "--march", "rays.csv", "pipe", "-o", "out.csv"},
         {"hearth-specular", "--evaluate", "pipe", "-o", "out.csv"},
         {"hearth-link", "pipe", "pipe", "pipe", "pipe", "-o", "out.hearth"},

@@ -80,16 +80,16 @@ TEST_F(SameBytes, forAnyOrder)
 {
     Sandbox programs;
     fs::copy(HEARTH_BIN "/hearth", programs / "hearth");
-    for (const char* cooker : {"bricks", "clusters", "import", "link", "neighbours", "skinning", "specular",
-                               "texels", "textures", "visibility"})
+    for (const char* cooker : {"bricks", "clusters", "import", "link", "neighbours", "receivers", "skinning",
+                               "specular", "texels", "textures", "visibility"})
     {
         std::string script = kDawdler;
         replaceAll(script, "COOKER", cooker);
         replaceAll(script, "BIN", HEARTH_BIN);
         programs.write(std::string("hearth-") + cooker, script, true);
     }
-    const std::vector<std::string> options{
-        "--no-cache", "--bricks", "--visibility", "--visibility-quality", "draft", "-j", "8"};
+    const std::vector<std::string> options{"--no-cache",           "--bricks", "--receivers", "--visibility",
+                                           "--visibility-quality", "draft",    "-j",          "8"};
     const std::string pack = cook(folder, options);
     ASSERT_FALSE(pack.empty());
     std::set<std::string> orders;

@@ -89,7 +89,7 @@ const std::vector<Layer>& layers()
           "cook/clusters/levels"}},
 
         {"cook/bricks/grid", {"formats"}},
-        {"cook/bricks/voxels", {"formats", "cook/json", "cook/bricks/grid"}},
+        {"cook/bricks/voxels", {"formats", "cook/json", "cook/tools", "cook/bricks/grid"}},
         {"cook/bricks/light",
          {"formats", "cook/bricks/grid", "cook/bricks/voxels", "cook/sampling", "cook/ray_scene"}},
         {"cook/bricks/program", {"formats", "cook/command_line", "cook/tools", "cook/bricks/light"}},
@@ -98,6 +98,9 @@ const std::vector<Layer>& layers()
         {"cook/receivers/unwrap", {"formats", "cook/mesh", "cook/receivers/bake"}},
         {"cook/receivers/scene",
          {"formats", "cook/bricks/voxels", "cook/bricks/light", "cook/receivers/bake"}},
+        {"cook/receivers/program",
+         {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/bricks/voxels",
+          "cook/receivers/bake", "cook/receivers/scene", "cook/receivers/select"}},
 
         {"cook/visibility/mesh", {"formats", "cook/mesh"}},
         {"cook/visibility/rays", {"formats", "cook/sampling", "cook/visibility/mesh"}},

@@ -65,7 +65,7 @@ protected:
             folder.write(name, name);
         for (const char* cooker :
              {"import", "textures", "estimates", "budget", "texels", "clusters", "skinning", "neighbours",
-              "visibility", "specular", "probe", "bricks", "link"})
+              "visibility", "specular", "probe", "bricks", "receivers", "link"})
             folder.write(std::string("hearth-") + cooker, cooker, true);
     }
 

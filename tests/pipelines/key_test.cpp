@@ -133,8 +133,9 @@ protected:
     Sandbox folder;
 };
 
-const std::set<std::string> kOfSource{"import",   "textures", "estimates",  "budget", "texels",
-                                      "clusters", "skinning", "visibility", "bricks", "link"};
+const std::set<std::string> kOfSource{"import", "textures",  "estimates", "budget",
+                                      "texels", "clusters",  "skinning",  "visibility",
+                                      "bricks", "receivers", "link"};
 
 } // namespace
 
@@ -162,7 +163,7 @@ TEST_F(Keys, everyParameterChangesThem)
              s.lods_of_source.emplace_back();
          },
          {"import", "textures", "estimates", "budget", "texels", "clusters", "skinning", "neighbours",
-          "visibility", "bricks", "link"}},
+          "visibility", "bricks", "receivers", "link"}},
         {"no lod", [](CookSettings& s) { s.lods_of_source.clear(); }, kOfSource},
         {"another level", [&](CookSettings& s) { s.lods_of_source = {{"2=" + low}}; }, kOfSource},
         {"another lod", [&](CookSettings& s) { s.lods_of_source = {{"1=" + s.sources[0]}}; }, kOfSource},
@@ -183,12 +184,13 @@ TEST_F(Keys, everySettingChangesThoseOfItsCookerAndItsReaders)
     const auto before = keys(settings);
     const std::map<std::string, std::set<std::string>> readers{
         {"import", kOfSource},
-        {"clusters", {"clusters", "skinning", "visibility", "bricks", "link"}},
-        {"textures", {"textures", "estimates", "budget", "texels", "bricks", "link"}},
+        {"clusters", {"clusters", "skinning", "visibility", "bricks", "receivers", "link"}},
+        {"textures", {"textures", "estimates", "budget", "texels", "bricks", "receivers", "link"}},
         {"texels", {"estimates", "budget", "texels", "link"}},
         {"visibility", {"visibility", "link"}},
-        {"probe", {"probe", "bricks", "link"}},
-        {"bricks", {"bricks", "link"}}};
+        {"probe", {"probe", "bricks", "receivers", "link"}},
+        {"bricks", {"bricks", "link"}},
+        {"receivers", {"receivers", "link"}}};
     for (const cookers::Cooker& cooker : cookers::allCookers())
         for (const settings::Setting& setting : cooker.settings)
         {
@@ -217,13 +219,17 @@ TEST_F(Keys, flagsAddTheirCookers)
     CookSettings other = settings;
     other.values_of_source[0]["visibility.mode"].text = "\"off\"";
     EXPECT_EQ(changed(before, keys(other)),
-              (std::set<std::string>{"clusters", "skinning", "visibility", "specular", "bricks", "link"}));
+              (std::set<std::string>{"clusters", "skinning", "visibility", "specular", "bricks", "receivers",
+                                     "link"}));
     other = settings;
     other.values_of_pack["bricks.mode"].text = "\"off\"";
     EXPECT_EQ(changed(before, keys(other)), (std::set<std::string>{"bricks", "link"}));
     other = settings;
+    other.values_of_pack["receivers.mode"].text = "\"off\"";
+    EXPECT_EQ(changed(before, keys(other)), (std::set<std::string>{"receivers", "link"}));
+    other = settings;
     other.values_of_pack["environment.file"].text = "\"off\"";
-    EXPECT_EQ(changed(before, keys(other)), (std::set<std::string>{"probe", "bricks", "link"}));
+    EXPECT_EQ(changed(before, keys(other)), (std::set<std::string>{"probe", "bricks", "receivers", "link"}));
     other = settings;
     other.values_of_pack.erase("textures.budget");
     EXPECT_EQ(changed(before, keys(other)), (std::set<std::string>{"estimates", "budget", "link"}));
@@ -243,7 +249,8 @@ TEST_F(Keys, everyFileChangesThem)
     EXPECT_EQ(changed(before, keys(settings)), (std::set<std::string>{"skinning", "link"}));
     folder.write("hearth-skinning", "skinning", true);
     folder.write("sky.hdr", "another sky");
-    EXPECT_EQ(changed(before, keys(settings)), (std::set<std::string>{"probe", "bricks", "link"}));
+    EXPECT_EQ(changed(before, keys(settings)),
+              (std::set<std::string>{"probe", "bricks", "receivers", "link"}));
     fs::rename(folder / "wood.png", folder / "wool.png");
     folder.write("sky.hdr", "sky.hdr");
     EXPECT_EQ(changed(before, keys(settings)), kOfSource) << "a file that is gone";

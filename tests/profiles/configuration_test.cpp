@@ -253,7 +253,9 @@ TEST(Arguments, giveEachCookerItsOwnSettings)
         "visibility.power = 1\nvisibility.poses = ['Run', 'Walk']\n"
         "visibility.refine = true\nvisibility.occluders = 'mesh'\n"
         "bricks.mode = 'on'\nbricks.voxel_size = 0.5\n"
-        "bricks.memory = '1M'\nenvironment.file = 'sky.hdr'\n",
+        "bricks.memory = '1M'\nenvironment.file = 'sky.hdr'\n"
+        "receivers.mode = 'on'\nreceivers.texels_per_metre = 8\nreceivers.lights = 3\n"
+        "receivers.codec = 'rgbm'\nreceivers.bounces = 2\n",
         "house.toml");
     ASSERT_TRUE(profile.ok()) << formatMessage(profile.error());
     const settings::Values& values = profile->values;
@@ -268,6 +270,8 @@ TEST(Arguments, giveEachCookerItsOwnSettings)
               (Words{"--quality", "draft", "--occluders", "mesh", "--distance", "2", "--power", "1",
                      "--poses", "Run", "--poses", "Walk", "--refine-cones", "--no-noise-estimate"}));
     EXPECT_EQ(wordsFor("bricks", values), (Words{"--voxel-size", "0.5", "--memory", "1048576"}));
+    EXPECT_EQ(wordsFor("receivers", values),
+              (Words{"--texels-per-metre", "8", "--lights", "3", "--codec", "rgbm", "--bounces", "2"}));
     const std::vector<settings::Values> sources{values};
     for (const cookers::Cooker& cooker : cookers::allCookers())
         EXPECT_TRUE(cookers::isEnabled(cooker, values, sources)) << cooker.name;
@@ -279,7 +283,9 @@ TEST(Arguments, omitUnsetSettings)
     EXPECT_EQ(wordsFor("textures", {}), Words());
     EXPECT_EQ(wordsFor("clusters", {}), (Words{"--no-discrete-lods", "--visibility"}));
     EXPECT_EQ(wordsFor("bricks", {}), Words{"--if-needed"});
+    EXPECT_EQ(wordsFor("receivers", {}), Words());
     EXPECT_FALSE(cookers::isEnabled(*cookers::findCooker("probe"), {}, {}));
+    EXPECT_FALSE(cookers::isEnabled(*cookers::findCooker("receivers"), {}, {}));
     const settings::Values off{{"visibility.mode", {"\"off\"", ""}}, {"bricks.mode", {"\"off\"", ""}}};
     EXPECT_EQ(wordsFor("clusters", off), Words{"--no-discrete-lods"});
     const std::vector<settings::Values> plain_sources(1), sources_off{off};

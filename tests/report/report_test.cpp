@@ -147,11 +147,11 @@ TEST(PageData, saysWhichSettingsMakeEachCookerCheaper)
     EXPECT_EQ((*quality)[1], "--visibility-quality");
     EXPECT_EQ((*quality)[2], "draft takes fewer rays");
     for (const auto& [cooker, list] : savings.items())
-        EXPECT_TRUE(std::set<std::string>(
-                        {"import", "textures", "texels", "clusters", "visibility", "probe", "bricks"})
+        EXPECT_TRUE(std::set<std::string>({"import", "textures", "texels", "clusters", "visibility", "probe",
+                                           "bricks", "receivers"})
                         .contains(cooker))
             << cooker << " runs in no cook";
-    EXPECT_EQ(savings.size(), 7u) << savings;
+    EXPECT_EQ(savings.size(), 8u) << savings;
 }
 
 TEST(ReportPage, cannotBeLeftByWhatIsInIt)

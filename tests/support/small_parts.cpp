@@ -82,6 +82,21 @@ void writeParts(const PackModel& pack, const std::string& folder, const std::str
     writeFile(path + ".skinning.part", assemble(ContainerKind::part, skinning_chunks));
 }
 
+namespace
+{
+
+/// Write a part with the chunks of these types.
+void writeChunks(const PackModel& pack, std::span<const uint32_t> types, const std::string& path)
+{
+    std::vector<ChunkImage> chunks;
+    for (const ChunkImage& chunk : pack.chunks(true))
+        if (std::ranges::find(types, chunk.entry.type) != types.end())
+            chunks.push_back(chunk);
+    writeFile(path, assemble(ContainerKind::part, chunks));
+}
+
+} // namespace
+
 void writeSpecularPart(const PackModel& pack, const std::string& path)
 {
     const ChunkImage chunks[] = {plainChunk(kChunkSpecular, 0, sizeof(SpecularTableRecord),
@@ -99,11 +114,12 @@ void writeProbePart(const PackModel& pack, const std::string& path)
 
 void writeBricksPart(const PackModel& pack, const std::string& path)
 {
-    std::vector<ChunkImage> chunks;
-    for (const ChunkImage& chunk : pack.chunks(true))
-        if (isBrickChunk(chunk.entry.type))
-            chunks.push_back(chunk);
-    writeFile(path, assemble(ContainerKind::part, chunks));
+    writeChunks(pack, kBrickChunks, path);
+}
+
+void writeReceiversPart(const PackModel& pack, const std::string& path)
+{
+    writeChunks(pack, kReceiverChunks, path);
 }
 
 void writePackFile(const PackModel& pack, const std::string& path)

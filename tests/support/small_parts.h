@@ -23,6 +23,9 @@ void writeProbePart(const PackModel& pack, const std::string& path);
 /// Write a part with the bricks of `pack`.
 void writeBricksPart(const PackModel& pack, const std::string& path);
 
+/// Write a part with the receivers of `pack`.
+void writeReceiversPart(const PackModel& pack, const std::string& path);
+
 /// Return a META text as hearth-import writes it, for an asset called `name`.
 std::string importMeta(const std::string& name);
 

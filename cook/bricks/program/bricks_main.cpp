@@ -37,19 +37,6 @@ struct Arguments
     size_t jobs = 0;
 };
 
-Result<std::vector<SourceParts>> openSources(const std::vector<std::string>& paths)
-{
-    std::vector<SourceParts> sources;
-    for (size_t i = 0; i + 2 < paths.size(); i += 3)
-    {
-        HEARTH_ASSIGN_OR_RETURN(formats::PackView scene, tools::openPart(paths[i]));
-        HEARTH_ASSIGN_OR_RETURN(formats::PackView clusters, tools::openPart(paths[i + 1]));
-        HEARTH_ASSIGN_OR_RETURN(formats::PackView textures, tools::openPart(paths[i + 2]));
-        sources.push_back({std::move(scene), std::move(clusters), std::move(textures)});
-    }
-    return sources;
-}
-
 /// Print one line on excluded instances and one on dropped bricks.
 void warn(const GridStatistics& statistics, const std::string& output)
 {

@@ -4,21 +4,13 @@
 
 #include "cook/bricks/grid/grid_frame.h"
 #include "cook/bricks/voxels/material.h"
-#include "formats/pack/pack_view.h"
+#include "cook/bricks/voxels/source_parts.h"
 
 #include <span>
 #include <vector>
 
 namespace hearth::bricks
 {
-
-/// Parts of one source.
-struct SourceParts
-{
-    formats::PackView scene; ///< import part: nodes, instances, materials, cameras
-    formats::PackView clusters;
-    formats::PackView textures;
-};
 
 struct StaticInstance
 {

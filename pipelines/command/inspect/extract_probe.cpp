@@ -4,9 +4,8 @@
 #include "formats/base/atomic_file.h"
 #include "formats/pack/pack_check.h"
 #include "formats/texels/shared_exponent.h"
+#include "pipelines/command/inspect/light_picture.h"
 #include "pipelines/command/inspect/open_pack.h"
-#include "pipelines/texture_files/exr_writer.h"
-#include "pipelines/texture_files/png_writer.h"
 
 #include <fmt/format.h>
 
@@ -88,16 +87,10 @@ std::string makeTable(const ProbeMips& probe)
     return text;
 }
 
-struct Picture
-{
-    uint32_t width = 0, height = 0;
-    std::vector<Float3> texels;
-};
-
 /// Lay out the six faces of a mip side by side, the mips below each other.
-Picture layOut(const ProbeMips& probe)
+LightPicture layOut(const ProbeMips& probe)
 {
-    Picture picture{kFaces * probe.side(0), 0, {}};
+    LightPicture picture{kFaces * probe.side(0), 0, {}};
     for (size_t mip = 0; mip < probe.mips.size(); ++mip)
         picture.height += probe.side(mip);
     picture.texels.resize(size_t{picture.width} * picture.height);
@@ -115,23 +108,6 @@ Picture layOut(const ProbeMips& probe)
     return picture;
 }
 
-/// Return the code of sRGB for a radiance x, as x / (1 + x) of white: suns keep their colours.
-uint8_t displayCode(double radiance)
-{
-    const double light = radiance / (1 + radiance);
-    const double code = light <= 0.0031308 ? 12.92 * light : 1.055 * std::pow(light, 1 / 2.4) - 0.055;
-    return static_cast<uint8_t>(255 * code + 0.5);
-}
-
-std::vector<std::byte> encodePicture(const Picture& picture)
-{
-    std::vector<uint8_t> codes;
-    for (const Float3& texel : picture.texels)
-        for (int c = 0; c < 3; ++c)
-            codes.push_back(displayCode(std::numbers::pi * double{texel[c]}));
-    return texture_files::writePng(picture.width, picture.height, codes);
-}
-
 } // namespace
 
 Status extractProbe(const std::string& path, const std::string& output)
@@ -141,16 +117,12 @@ Status extractProbe(const std::string& path, const std::string& output)
     if (file.probes().empty())
         return Error{Issue::chunk_missing, path, chunkName(kChunkProbes, 0), "the file has no light probe"};
     const ProbeMips probe = decodeMips(file, file.probes()[0]);
-    const bool is_table = output.ends_with(".csv"), is_picture = output.ends_with(".png");
-    if (!is_table && !is_picture && !output.ends_with(".exr"))
+    if (isPictureName(output))
+        return writePicture(output, layOut(probe), std::numbers::pi);
+    if (!output.ends_with(".csv"))
         return Error{Issue::usage, output, "", "a probe is written as .csv, .exr or .png"};
     HEARTH_ASSIGN_OR_RETURN(AtomicFile out, AtomicFile::create(output));
-    if (is_table)
-        out.write(makeTable(probe));
-    else if (const Picture picture = layOut(probe); is_picture)
-        out.write(encodePicture(picture));
-    else
-        out.write(texture_files::writeExr(picture.width, picture.height, picture.texels));
+    out.write(makeTable(probe));
     return out.finish();
 }
 

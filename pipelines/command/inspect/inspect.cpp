@@ -196,6 +196,9 @@ MetaSummary readMeta(std::string_view json)
         meta.texture_budget = readCount(*settings, "texture_budget");
         if (const Json* bricks = settings->find("bricks"); bricks != nullptr && bricks->is_object())
             meta.no_bricks = readString(*bricks, "none");
+        if (const Json* receivers = settings->find("receivers");
+            receivers != nullptr && receivers->is_object())
+            meta.no_receivers = readString(*receivers, "none");
     }
     meta.messages = readMessages(root, "messages");
     meta.skipped = readMessages(root, "skipped");
@@ -216,6 +219,45 @@ BricksSummary summarizeBricks(const PackView& pack)
             summary.stored_bytes += entry.stored_size;
         }
     return summary;
+}
+
+std::string_view readInstanceName(const PackView& pack, uint32_t instance)
+{
+    if (instance >= pack.instances().size() || pack.instances()[instance].node >= pack.nodes().size())
+        return {};
+    return pack.text(pack.nodes()[pack.instances()[instance].node].name);
+}
+
+ReceiverLampSummary summarizeLamp(const PackView& pack, const ReceiverLampRecord& lamp)
+{
+    switch (static_cast<ReceiverLampKind>(lamp.kind))
+    {
+    case ReceiverLampKind::light:
+        return {"light", lamp.index < pack.lights().size()
+                             ? std::string(pack.text(pack.lights()[lamp.index].name))
+                             : std::string()};
+    case ReceiverLampKind::mesh_light:
+        return {"instance", std::string(readInstanceName(pack, lamp.index))};
+    default:
+        return {"steady", ""};
+    }
+}
+
+ReceiverBytes sumReceiverBytes(const PackView& pack)
+{
+    ReceiverBytes sum;
+    for (const ChunkEntry& entry : pack.container().chunks())
+        if (std::ranges::find(kReceiverChunks, entry.type) != kReceiverChunks.end())
+        {
+            sum.bytes += entry.size;
+            sum.stored_bytes += entry.stored_size;
+        }
+    return sum;
+}
+
+const char* receiverCodecName(uint32_t codec)
+{
+    return codec == static_cast<uint32_t>(ReceiverCodec::rgbm) ? "rgbm" : "rgb9e5";
 }
 
 PackSummary summarize(const PackView& pack)

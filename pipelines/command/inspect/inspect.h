@@ -91,7 +91,8 @@ struct MetaSummary
     std::vector<ClipSummary> clips;         ///< in the order of the animations
     std::vector<MessageSummary> messages;
     std::vector<std::string> dropped;
-    std::string no_bricks;               ///< why the cook made none; empty: switched off, or it made some
+    std::string no_bricks;       ///< why the cook made none; empty: switched off, or it made some
+    std::string no_receivers;    ///< the same of receivers
     uint64_t texture_budget = 0; ///< bytes that the textures may take on the GPU; 0: the cook had no budget
     std::vector<MessageSummary> skipped; ///< errors of sources that the pack lacks
 };
@@ -112,6 +113,26 @@ struct BricksSummary
     uint64_t stored_bytes = 0; ///< as stored in the file
 };
 BricksSummary summarizeBricks(const formats::PackView& pack);
+
+/// Lamp of receivers, in words.
+struct ReceiverLampSummary
+{
+    const char* kind = ""; ///< "steady", "light", "instance"
+    std::string name;      ///< of the light, or of the instance's node; empty in a part
+};
+ReceiverLampSummary summarizeLamp(const formats::PackView& pack, const formats::ReceiverLampRecord& lamp);
+
+/// Return the name of an instance's node; empty in a part of receivers alone.
+std::string_view readInstanceName(const formats::PackView& pack, uint32_t instance);
+
+/// Bytes of the chunks of receivers.
+struct ReceiverBytes
+{
+    uint64_t bytes = 0;        ///< in memory
+    uint64_t stored_bytes = 0; ///< as stored in the file
+};
+ReceiverBytes sumReceiverBytes(const formats::PackView& pack);
+const char* receiverCodecName(uint32_t codec);
 
 PackSummary summarize(const formats::PackView& pack);
 

@@ -293,6 +293,37 @@ Json bricksJson(const PackView& pack)
             {"bytes_stored", summary.stored_bytes}};
 }
 
+Json receiversJson(const PackView& pack)
+{
+    const ReceiverTables tables = pack.receivers();
+    const ReceiverBytes sum = sumReceiverBytes(pack);
+    const auto lamp = [&](uint32_t i) -> Json
+    {
+        const ReceiverLampSummary summary = summarizeLamp(pack, tables.lamps[i]);
+        return {{"kind", summary.kind}, {"index", tables.lamps[i].index}, {"name", summary.name}};
+    };
+    const auto rectangle = [&](uint32_t i) -> Json
+    {
+        const ReceiverRectRecord& rect = tables.rects[i];
+        return {{"instance", rect.instance},
+                {"name", readInstanceName(pack, rect.instance)},
+                {"x", rect.x},
+                {"y", rect.y},
+                {"width", rect.width},
+                {"height", rect.height},
+                {"uv_set", rect.uv_set}};
+    };
+    return {{"width", tables.atlas.width},
+            {"height", tables.atlas.height},
+            {"codec", receiverCodecName(tables.atlas.codec)},
+            {"scale", tables.atlas.scale},
+            {"texels", tables.atlas.texel_count},
+            {"bytes", sum.bytes},
+            {"bytes_stored", sum.stored_bytes},
+            {"lamps", listJson(tables.lamps.size(), lamp)},
+            {"rectangles", listJson(tables.rects.size(), rectangle)}};
+}
+
 Json totalsJson(const PackView& pack, const PackSummary& summary)
 {
     MeshSummary total;
@@ -369,6 +400,8 @@ std::string inspectJson(const PackView& pack, const PackSummary& summary)
     json["scene"] = sceneJson(pack, summary);
     if (!pack.brickGrid().empty())
         json["bricks"] = bricksJson(pack);
+    if (!pack.receiverAtlases().empty())
+        json["receivers"] = receiversJson(pack);
     json["chunks"] = chunksJson(pack);
     json["messages"] = messagesJson(summary.meta.messages);
     json["skipped"] = messagesJson(summary.meta.skipped);

@@ -130,6 +130,33 @@ std::string bricksText(const PackView& pack, const MetaSummary& meta)
     return text;
 }
 
+/// Describe the atlas of receivers, its lamps and rectangles. Nothing where the cook was not asked for them.
+std::string receiversText(const PackView& pack, const MetaSummary& meta)
+{
+    if (pack.receiverAtlases().empty())
+        return meta.no_receivers.empty() ? "" : "receivers  none: " + printable(meta.no_receivers) + "\n";
+    const ReceiverTables tables = pack.receivers();
+    const ReceiverBytes sum = sumReceiverBytes(pack);
+    const uint32_t texels = std::max(tables.atlas.texel_count, 1u);
+    std::string text = fmt::format("receivers  {} x {}, {} texels in {}, {} lamps, {} rectangles; {} stored "
+                                   "of {}, {:.1f} bytes a texel\n",
+                                   tables.atlas.width, tables.atlas.height, tables.atlas.texel_count,
+                                   receiverCodecName(tables.atlas.codec), tables.lamps.size(),
+                                   tables.rects.size(), readableSize(sum.stored_bytes),
+                                   readableSize(sum.bytes), static_cast<double>(sum.bytes) / texels);
+    for (size_t i = 0; i < tables.lamps.size(); ++i)
+    {
+        const ReceiverLampSummary lamp = summarizeLamp(pack, tables.lamps[i]);
+        text += fmt::format("  lamp {}: {}{}\n", i, lamp.kind,
+                            lamp.name.empty() ? "" : " \"" + printable(lamp.name) + "\"");
+    }
+    for (const ReceiverRectRecord& rect : tables.rects)
+        text += fmt::format("  instance {} \"{}\": {} x {} texels at ({}, {}), UV set {}\n", rect.instance,
+                            printable(readInstanceName(pack, rect.instance)), rect.width, rect.height, rect.x,
+                            rect.y, rect.uv_set);
+    return text;
+}
+
 /// Return "  by hand: rock_LOD3.ply (LOD 3)" for an authored level; empty for other levels.
 std::string authoredText(const LevelSummary& level)
 {
@@ -296,7 +323,7 @@ std::string inspectText(const PackView& pack, const PackSummary& summary)
 {
     std::string text = headText(pack, summary) + sceneText(pack, summary) + assetsText(pack) +
                        visibilityText(pack) + specularText(pack) + probesText(pack) +
-                       bricksText(pack, summary.meta);
+                       bricksText(pack, summary.meta) + receiversText(pack, summary.meta);
     for (size_t i = 0; i < summary.meshes.size(); ++i)
         text += meshText(summary.meshes[i], i);
     return text + layersText(pack) + imagesText(pack, summary) + extrasText(pack) +

@@ -405,6 +405,30 @@ void addLightEntries(std::vector<PackEntry>& entries, const PackView& pack)
     }
 }
 
+/// Add the receivers: one entry, with their lamps by name.
+void addReceiverEntry(std::vector<PackEntry>& entries, const PackView& pack)
+{
+    if (pack.receiverAtlases().empty())
+        return;
+    const ReceiverTables tables = pack.receivers();
+    PackEntry entry{"receivers", "", {}};
+    addFieldProperties(entry.properties, pack, tables.atlas);
+    for (size_t i = 0; i < tables.lamps.size(); ++i)
+    {
+        const ReceiverLampSummary lamp = summarizeLamp(pack, tables.lamps[i]);
+        entry.properties.push_back(
+            {fmt::format("lamp {}", i), lamp.name.empty() ? lamp.kind : lamp.kind + (" " + lamp.name)});
+    }
+    for (const ReceiverRectRecord& rect : tables.rects)
+        entry.properties.push_back({fmt::format("rectangle of {}", readInstanceName(pack, rect.instance)),
+                                    fmt::format("{} x {} at ({}, {}), UV set {}", rect.width, rect.height,
+                                                rect.x, rect.y, rect.uv_set)});
+    entry.properties.push_back(
+        {"light", contentHash(std::string(rawBytes(tables.blocks)) + std::string(rawBytes(tables.words))),
+         true});
+    entries.push_back(std::move(entry));
+}
+
 void addMetaEntries(std::vector<PackEntry>& entries, const MetaSummary& meta)
 {
     for (const SourceSummary& source : meta.sources)
@@ -465,6 +489,7 @@ Result<std::vector<PackEntry>> listEntries(const PackView& pack)
     addNodeEntries(entries, pack, "shadow sphere", pack.shadowSpheres());
     addExtrasEntries(entries, pack);
     addLightEntries(entries, pack);
+    addReceiverEntry(entries, pack);
     addMetaEntries(entries, summary.meta);
     return entries;
 }

@@ -2,6 +2,7 @@
 #include "pipelines/command/inspect/extract.h"
 #include "pipelines/command/inspect/extract_bricks.h"
 #include "pipelines/command/inspect/extract_probe.h"
+#include "pipelines/command/inspect/extract_receivers.h"
 #include "pipelines/command/inspect/extract_specular.h"
 #include "pipelines/command/inspect/extract_texture.h"
 #include "pipelines/command/shell/verb_tools.h"
@@ -16,7 +17,8 @@ void addExtract(cli::CommandLine& app, VerbAction& run)
 {
     cli::CommandLine& verb = app.addSubcommand(
         "extract",
-        "Write a level of detail of a mesh as PLY, a texture as KTX2, a light probe, or a table as CSV");
+        "Write a level of detail of a mesh as PLY, a texture as KTX2, a light probe, receivers, or a table "
+        "as CSV");
     struct Options
     {
         std::string file;
@@ -53,6 +55,13 @@ void addExtract(cli::CommandLine& app, VerbAction& run)
             .excludes(mesh)
             .excludes(part)
             .excludes(texture);
+    const cli::Option receivers =
+        verb.addFlag("--receivers",
+                     "instead of a mesh; the baked light of receivers with all lamps on, as .exr or .png")
+            .excludes(mesh)
+            .excludes(part)
+            .excludes(texture)
+            .excludes(probe);
     verb.addOption("--as", options->texel_format, "decode the texture, for programs that lack its format")
         .choices({"rgba8"})
         .needs(texture);
@@ -64,15 +73,22 @@ void addExtract(cli::CommandLine& app, VerbAction& run)
     verb.addOption("-o,--output", options->output, "PLY, KTX2, CSV, EXR or PNG file to write").required();
     verb.setFooter("Example: hearth extract village.hearth --mesh 0 --error 0.01 -o cut.ply");
     verb.setCheck(
-        [mesh, part, texture, probe] {
-            return mesh.count() + part.count() + texture.count() + probe.count() == 0 ? "--mesh is required"
-                                                                                      : "";
+        [mesh, part, texture, probe, receivers]
+        {
+            const size_t given =
+                mesh.count() + part.count() + texture.count() + probe.count() + receivers.count();
+            return given == 0 ? "--mesh is required" : "";
         });
     verb.setAction(
-        [options, part, texture, probe, animation, &run]
+        [options, part, texture, probe, receivers, animation, &run]
         {
-            run = [options, part, texture, probe, animation]
+            run = [options, part, texture, probe, receivers, animation]
             {
+                if (receivers.count() > 0)
+                {
+                    const Status status = extractReceivers(options->file, options->output);
+                    return status.ok() ? 0 : printError(status.error());
+                }
                 if (probe.count() > 0)
                 {
                     const Status status = extractProbe(options->file, options->output);

@@ -28,7 +28,13 @@ Result<PackView> readContainer(const std::string& path)
 Result<PackView> openContainer(const std::string& path)
 {
     HEARTH_ASSIGN_OR_RETURN(PackView view, readContainer(path));
-    HEARTH_TRY(view.container().kind() == ContainerKind::pack ? verify::verifyPack(view) : checkBricks(view));
+    if (view.container().kind() == ContainerKind::pack)
+        HEARTH_TRY(verify::verifyPack(view));
+    else
+    {
+        HEARTH_TRY(checkBricks(view));
+        HEARTH_TRY(checkReceivers(view));
+    }
     return view;
 }
 

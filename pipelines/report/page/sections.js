@@ -274,6 +274,21 @@ function texturesSection(data) {
   return {part: table.filter ? withTools(part, table.filter) : part, choose: table.choose, first: table.first};
 }
 
+const kWithoutReceivers = {animated: 'moved by clips', deformed: 'deformed', unlit: 'unlit', transparent: 'surfaces with holes alone', no_uvs: 'without UVs',
+                           flat_uvs: 'UVs without an area', uvs_outside: 'UVs outside 0 to 1', overlapping_uvs: 'UVs that overlap'};
+
+/** Tells what baked light takes, and which instances have none of it; nothing where the cook made no receivers. */
+function receiversSection(data) {
+  const atlas = data.receivers;
+  if (!atlas) return null;
+  const figures = atlas.none ? [['none', atlas.none]] :
+    [['atlas', `${atlas.width} × ${atlas.height}, ${atlas.texels} texels at ${atlas.texels_per_metre} a metre, ${atlas.codec}`], ['lamps', `${atlas.lamps}, of which a texel keeps ${atlas.colors_per_texel.toFixed(1)}`],
+     ['bytes', `${bytes(atlas.bytes)}, ${atlas.bytes_per_texel.toFixed(1)} a texel`], ['largest share dropped', `${(100 * atlas.largest_dropped).toFixed(2)} % of a texel's light`], ['instances', String(atlas.instances)]];
+  const without = Object.entries(atlas.left_out).filter(([, count]) => count > 0).map(([reason, count]) => ['without', `${plural(count, 'instance')}: ${kWithoutReceivers[reason] || reason}`]);
+  return section('receivers', 'Receivers', 'baked light of lamps that keep their weights',
+    el('dl', {}, ...[...figures, ...without].flatMap(([name, text]) => [el('dt', {}, name), el('dd', {}, text)])));
+}
+
 /** Lists all uses of an image, one a line. */
 const usesText = texture => texture.uses.map(([material, role]) => `${material || '(no name)'} · ${role}`).join('\n');
 

@@ -3,7 +3,7 @@
 
 const kLaneHeight = 22;
 const kStageColors = {import: 'import', textures: 'textures', texels: 'textures', clusters: 'clusters', skinning: 'skinning', visibility: 'visibility',
-                      bricks: 'light', specular: 'other', link: 'link'};
+                      bricks: 'light', receivers: 'light', specular: 'other', link: 'link'};
 
 /** bars  {stage, subject, start, seconds, lane, why, failed, open} */
 function makeTimeline(bars, total) {

@@ -132,6 +132,8 @@ TEST_F(Diff, eachChangeIsToldUnderItsName)
          [](PackModel& pack) { pack.specular_tables[0].values[5] ^= 1; }},
         {{"changed probe : texels"}, [](PackModel& pack) { pack.probe_texels[5] ^= 1; }},
         {{"changed probe : irradiance"}, [](PackModel& pack) { pack.probes[0].irradiance.x = 4; }},
+        {{"changed receivers : light"}, [](PackModel& pack) { pack.receiver_words[2] ^= 1; }},
+        {{"changed receivers : scale"}, [](PackModel& pack) { pack.receiver_atlases[0].scale = 0.25f; }},
         {{"changed surroundings : instances"},
          [](PackModel& pack) { pack.surroundings[0].visibility[3] = 0x3800; }},
         {{"changed surroundings : radiance transfers"},

@@ -174,6 +174,38 @@ TEST_F(Inspect, describesTheBricks)
     EXPECT_FALSE(json.contains("bricks"));
 }
 
+TEST_F(Inspect, describesTheReceivers)
+{
+    PackModel model = smallPack();
+    Json json = inspected(model);
+    const Json receivers = json["receivers"];
+    EXPECT_EQ(receivers["width"], 6);
+    EXPECT_EQ(receivers["height"], 4);
+    EXPECT_EQ(receivers["codec"], "rgb9e5");
+    EXPECT_EQ(receivers["texels"], 3);
+    EXPECT_EQ(receivers["bytes"], 64 + 3 * 8 + 2 * 24 + 2 * 40 + 10 * 4);
+    ASSERT_EQ(receivers["lamps"].size(), 3u);
+    EXPECT_EQ(receivers["lamps"][0]["kind"], "steady");
+    EXPECT_EQ(receivers["lamps"][1]["kind"], "light");
+    EXPECT_EQ(receivers["lamps"][1]["name"], json["scene"]["lights"][0]["name"]);
+    EXPECT_EQ(receivers["lamps"][2]["kind"], "instance");
+    ASSERT_EQ(receivers["rectangles"].size(), 2u);
+    EXPECT_EQ(receivers["rectangles"][1]["x"], 4);
+    EXPECT_NE(text.find("receivers  6 x 4, 3 texels in rgb9e5, 3 lamps, 2 rectangles"), std::string::npos)
+        << text;
+    EXPECT_NE(text.find("lamp 0: steady"), std::string::npos) << text;
+    EXPECT_NE(text.find("2 x 2 texels at (4, 0), UV set 0"), std::string::npos) << text;
+
+    model.receiver_atlases.clear();
+    model.receiver_lamps.clear();
+    model.receiver_rects.clear();
+    model.receiver_blocks.clear();
+    model.receiver_words.clear();
+    json = inspected(model);
+    EXPECT_FALSE(json.contains("receivers"));
+    EXPECT_EQ(text.find("receivers "), std::string::npos) << text;
+}
+
 TEST_F(Inspect, countsTheScene)
 {
     const Json scene = inspected(smallPack())["scene"];

@@ -47,7 +47,10 @@ protected:
         return pack;
     }
 
-    Status link() { return link::linkPack(sources, sandbox / "out.hearth", {specular, bricks, probe}); }
+    Status link()
+    {
+        return link::linkPack(sources, sandbox / "out.hearth", {specular, bricks, probe, receivers});
+    }
 
     PackView linked()
     {
@@ -62,6 +65,7 @@ protected:
     std::vector<std::string> specular;
     std::string bricks;
     std::string probe;
+    std::string receivers;
 };
 
 template <typename T>
@@ -295,6 +299,38 @@ TEST_F(LinkPack, refusesWrongBricksAndNone)
     EXPECT_EQ(wrong.error().issue, Issue::meaning_value);
     EXPECT_EQ(wrong.error().file, bricks);
     EXPECT_FALSE(sandbox.has("out.hearth"));
+}
+
+TEST_F(LinkPack, takesTheReceiversOfAPart)
+{
+    addParts(smallPack(), "a");
+    EXPECT_TRUE(linked().receiverAtlases().empty()) << "those of an import part are none";
+    receivers = sandbox / "receivers.part";
+    writeReceiversPart(smallPack(), receivers);
+    const PackView pack = linked();
+    const PackModel expected = smallPack();
+    EXPECT_TRUE(sameBytes(pack.receiverAtlases(), expected.receiver_atlases));
+    EXPECT_TRUE(sameBytes(pack.receivers().lamps, expected.receiver_lamps));
+    EXPECT_TRUE(sameBytes(pack.receivers().rects, expected.receiver_rects));
+    EXPECT_TRUE(sameBytes(pack.receivers().blocks, expected.receiver_blocks));
+    EXPECT_TRUE(sameBytes(pack.receivers().words, expected.receiver_words));
+}
+
+TEST_F(LinkPack, refusesWrongReceiversAndNone)
+{
+    addParts(smallPack(), "a");
+    receivers = sandbox / "a.clusters.part";
+    EXPECT_EQ(link().error().issue, Issue::chunk_missing);
+    PackModel model = smallPack();
+    model.receiver_atlases[0].codec = 7;
+    receivers = sandbox / "wrong.part";
+    writeReceiversPart(model, receivers);
+    EXPECT_EQ(link().error().issue, Issue::meaning_value);
+    EXPECT_EQ(link().error().file, receivers);
+    model = smallPack();
+    model.receiver_lamps[1].index = 99; // of the lights, which are in another part
+    writeReceiversPart(model, receivers);
+    EXPECT_EQ(link().error().issue, Issue::meaning_reference);
 }
 
 TEST_F(LinkPack, takesAProbe)

@@ -197,8 +197,9 @@ TEST_F(Manual, doctorSaysWhatIsWrongAndWhatToDo)
     EXPECT_NE(alone.out.find("ok       cache"), std::string::npos) << alone.out;
 
     // a program of another version
-    for (const char* name : {"import", "textures", "estimates", "budget", "texels", "clusters", "skinning",
-                             "neighbours", "visibility", "specular", "probe", "bricks", "link", "render"})
+    for (const char* name :
+         {"import", "textures", "estimates", "budget", "texels", "clusters", "skinning", "neighbours",
+          "visibility", "specular", "probe", "bricks", "receivers", "link", "render"})
         folder.write(std::string("bin/hearth-") + name,
                      std::string("#!/bin/sh\necho a device\nexit 0\nhearth program version 0.0.1") + '\0',
                      true);

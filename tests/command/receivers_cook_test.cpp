@@ -1,0 +1,240 @@
+// Tests `hearth cook --receivers` with the real cookers: a pack's light beside closed forms.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
+#include "formats/base/double3.h"
+#include "formats/container/container_reader.h"
+#include "formats/pack/pack_view.h"
+#include "sample_assets/shapes/glb_writer.h"
+#include "sample_assets/shapes/scene_parts.h"
+#include "sample_assets/shapes/shapes.h"
+#include "tests/support/sandbox.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+using namespace samples;
+using formats::PackView;
+
+constexpr Float3 kBulb{0.5f, 1.5f, 0.25f}, kDesk{-1, 1, -0.5f};
+
+/// Floor of 4 x 4 m at y = 0 that faces up: u along x, v along -z, both from -2 to 2 m.
+TriangleMesh makeFloorMesh()
+{
+    TriangleMesh floor = makeGrid(2, 2,
+                                  [](Float2 uv, Float3& position, Float2& texture_uv)
+                                  {
+                                      position = {4 * uv.x - 2, 0, 2 - 4 * uv.y};
+                                      texture_uv = uv;
+                                  });
+    setFlatNormals(floor);
+    return floor;
+}
+
+/// Floor under two bulbs and a sun. Below it, where it throws no light on anything that is lit: two crates
+/// whose UVs overlap, and a fan that turns.
+Document makeRoom()
+{
+    Document document;
+    const int white = addPlainMaterial(document, "white", {0.8f, 0.8f, 0.8f});
+    addObject(document, "floor", {{makeFloorMesh(), white}});
+    addObject(document, "crate", {{makeBox({0, -2, 0}, {0.1f, 0.1f, 0.1f}, 1), white}});
+    Node copy = document.nodes.back();
+    copy.name = "crate 2";
+    copy.placement.translation = {1, 0, 0};
+    addRoot(document, copy);
+    addObject(document, "fan", {{makeFloorMesh(), white}});
+    document.nodes.back().placement.translation = {0, -3, 0};
+    Animation turn{"turn", {}};
+    turn.tracks.push_back({static_cast<int>(document.nodes.size()) - 1,
+                           TrackPath::rotation,
+                           TrackKind::linear,
+                           {0, 1},
+                           {{0, 0, 0, 1}, {0, 1, 0, 0}}});
+    document.animations.push_back(turn);
+    for (const auto& [name, intensity, kind, position] :
+         {std::tuple("bulb", 2.0f, LightKind::point, kBulb),
+          std::tuple("desk", 1.0f, LightKind::point, kDesk),
+          std::tuple("sun", 0.25f, LightKind::directional, Float3{0, 5, 0})})
+    {
+        samples::Light light;
+        light.name = name;
+        light.kind = kind;
+        light.intensity = intensity;
+        addLight(document, light, position, {-0.70710678f, 0, 0, 0.70710678f});
+    }
+    return document;
+}
+
+/// Decode a word of RGB9E5, as its format says.
+Float3 decodeWord(uint32_t word)
+{
+    const double step = std::ldexp(1.0, static_cast<int>(word >> 27) - 24);
+    return narrow(Double3{(word & 511) * step, (word >> 9 & 511) * step, (word >> 18 & 511) * step});
+}
+
+class CookReceivers : public ::testing::Test
+{
+protected:
+    CookReceivers()
+    {
+        EXPECT_TRUE(samples::writeFile(folder / "room.glb", encodeGlb(makeRoom())).ok());
+        std::string file = "#?RADIANCE\n\n-Y 4 +X 8\n"; // a sky of 2^-33
+        for (int i = 0; i < 32; ++i)
+            file += "\x80\x80\x80\x60";
+        folder.write("night.hdr", file);
+    }
+
+    ProgramEnd cook(const std::vector<std::string>& options)
+    {
+        std::vector<std::string> words{std::string(HEARTH_BIN) + "/hearth",
+                                       "cook",
+                                       "room.glb",
+                                       "-o",
+                                       "room.hearth",
+                                       "--visibility=off",
+                                       "--bricks=off",
+                                       "--cache",
+                                       folder.cacheSpec()};
+        words.insert(words.end(), options.begin(), options.end());
+        const ProgramEnd end = folder.run(words);
+        EXPECT_EQ(end.exit_code, 0) << end.err;
+        return end;
+    }
+
+    PackView open(const std::string& file)
+    {
+        return PackView::read(formats::ContainerReader::open(folder / file).value()).value();
+    }
+
+    Json inspect()
+    {
+        const ProgramEnd end =
+            folder.run({std::string(HEARTH_BIN) + "/hearth", "inspect", "room.hearth", "--format", "json"});
+        EXPECT_EQ(end.exit_code, 0) << end.err;
+        return Json::parse(end.out).value();
+    }
+
+    Sandbox folder;
+};
+
+} // namespace
+
+TEST_F(CookReceivers, haveTheLightOfTheLamps)
+{
+    cook({"--receivers", "--sky", "night.hdr"});
+    const PackView pack = open("room.hearth");
+    ASSERT_EQ(pack.receiverAtlases().size(), 1u);
+    const formats::ReceiverTables tables = pack.receivers();
+    ASSERT_EQ(tables.rects.size(), 1u);
+    const formats::ReceiverRectRecord& rect = tables.rects[0];
+    EXPECT_EQ(rect.width, 64u);
+    EXPECT_EQ(rect.height, 64u);
+    size_t inside = 0;
+    double largest = 0;
+    for (const formats::ReceiverBlockRecord& block : tables.blocks)
+        for (uint32_t i = 0; i < block.texel_count; ++i)
+        {
+            const uint32_t* const word = &tables.words[block.first_word + i];
+            const uint32_t column = (*word & 16383) - rect.x, row = (*word >> 14) - rect.y;
+            if (column >= rect.width || row >= rect.height) // around the rectangle
+                continue;
+            Float3 sum;
+            for (uint32_t color = 1; color <= block.color_count; ++color)
+                sum += decodeWord(word[color * block.texel_count]) * tables.atlas.scale;
+            const Float3 at{4 * (static_cast<float>(column) + 0.5f) / 64 - 2, 0,
+                            2 - 4 * (static_cast<float>(row) + 0.5f) / 64};
+            double expected = 0;
+            for (const auto& [position, candela] : {std::pair(kBulb, 2.0), std::pair(kDesk, 1.0)})
+            {
+                const double distance = double{length(position - at)};
+                expected += candela * double{position.y} / (distance * distance * distance);
+            }
+            ASSERT_NEAR(double{sum.x}, expected, 0.005 * expected) << column << ", " << row;
+            largest = std::max(largest, std::abs(double{sum.y} / expected - 1));
+            ++inside;
+        }
+    EXPECT_EQ(inside, 64u * 64);
+    std::printf("sum of lamps: off by %.3f %% at most\n", 100 * largest);
+}
+
+TEST_F(CookReceivers, nameTheirLampsAndWhatHasNone)
+{
+    const ProgramEnd end = cook({"--receivers", "--report", "report.json"});
+    EXPECT_EQ(countOccurrences(end.err, "[W1406]"), 1u) << end.err;
+    EXPECT_NE(end.err.find("mesh crate of room.glb: warning: "), std::string::npos) << end.err;
+    EXPECT_NE(end.err.find("second UV set"), std::string::npos) << end.err;
+
+    const Json receivers = inspect()["receivers"];
+    EXPECT_EQ(receivers["codec"], "rgb9e5");
+    std::vector<std::string> lamps;
+    for (const Json& lamp : receivers["lamps"])
+        lamps.push_back(lamp["kind"].get<std::string>() + " " + lamp["name"].get<std::string>());
+    EXPECT_EQ(lamps, (std::vector<std::string>{"steady ", "light bulb", "light desk", "light sun"}));
+    ASSERT_EQ(receivers["rectangles"].size(), 1u);
+    EXPECT_EQ(receivers["rectangles"][0]["name"], "floor");
+    EXPECT_EQ(receivers["rectangles"][0]["uv_set"], 0);
+
+    const Json report = Json::parse(folder.read("report.json")).value()["receivers"];
+    EXPECT_EQ(report["stage"], "receivers");
+    const Json& atlas = report["atlas"];
+    EXPECT_EQ(atlas["texels"], receivers["texels"]);
+    EXPECT_EQ(atlas["bytes"], receivers["bytes"]);
+    EXPECT_EQ(atlas["lamps"], 4);
+    EXPECT_EQ(atlas["instances"], 1);
+    EXPECT_EQ(atlas["left_out"]["overlapping_uvs"], 2);
+    EXPECT_EQ(atlas["left_out"]["animated"], 1);
+    EXPECT_LT(atlas["largest_dropped"].get<double>(), 0.036);
+
+    const std::string program = std::string(HEARTH_BIN) + "/hearth";
+    const ProgramEnd text = folder.run({program, "inspect", "room.hearth"});
+    EXPECT_NE(text.out.find("lamp 1: light \"bulb\""), std::string::npos) << text.out;
+    EXPECT_NE(text.out.find("\"floor\": 64 x 64 texels at (1, 1), UV set 0"), std::string::npos) << text.out;
+    for (const char* picture : {"light.png", "light.exr"})
+    {
+        EXPECT_EQ(folder.run({program, "extract", "room.hearth", "--receivers", "-o", picture}).exit_code, 0);
+        EXPECT_TRUE(folder.has(picture));
+    }
+    EXPECT_EQ(folder.run({program, "extract", "room.hearth", "--receivers", "-o", "light.csv"}).exit_code, 2);
+}
+
+TEST_F(CookReceivers, haveTheSameBytesForAnyThreads)
+{
+    std::set<std::string> packs;
+    for (const char* jobs : {"-j1", "-j4"})
+    {
+        cook({"--receivers", "--no-cache", jobs});
+        packs.insert(folder.read("room.hearth"));
+    }
+    EXPECT_EQ(packs.size(), 1u);
+}
+
+TEST_F(CookReceivers, areCookedAgainForTheirSettingsAlone)
+{
+    cook({});
+    EXPECT_TRUE(open("room.hearth").receiverAtlases().empty());
+    cook({"--receivers"});
+    const uint32_t texels = open("room.hearth").receivers().atlas.texel_count;
+    cook({"--receivers", "--set", "receivers.texels_per_metre=8", "--set", "receivers.lights=3", "--set",
+          "receivers.codec=rgbm", "--report", "report.json"});
+    const formats::ReceiverTables tables = open("room.hearth").receivers();
+    EXPECT_LT(tables.atlas.texel_count, texels / 3);
+    EXPECT_EQ(tables.atlas.codec, 1u);
+    for (const formats::ReceiverBlockRecord& block : tables.blocks)
+        EXPECT_LE(block.color_count, 3u);
+    const Json report = Json::parse(folder.read("report.json")).value();
+    EXPECT_EQ(report["receivers"]["state"], "cooked");
+    EXPECT_EQ(report["assets"][0]["stages"][0]["state"], "cached");
+    cook({"--receivers", "--set", "receivers.texels_per_metre=8", "--set", "receivers.lights=3", "--set",
+          "receivers.codec=rgbm", "--report", "report.json"});
+    EXPECT_EQ(Json::parse(folder.read("report.json")).value()["receivers"]["state"], "cached");
+}
+
+} // namespace hearth::test
