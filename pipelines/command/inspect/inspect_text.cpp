@@ -147,8 +147,9 @@ std::string receiversText(const PackView& pack, const MetaSummary& meta)
     for (size_t i = 0; i < tables.lamps.size(); ++i)
     {
         const ReceiverLampSummary lamp = summarizeLamp(pack, tables.lamps[i]);
-        text += fmt::format("  lamp {}: {}{}\n", i, lamp.kind,
-                            lamp.name.empty() ? "" : " \"" + printable(lamp.name) + "\"");
+        const bool is_steady = tables.lamps[i].kind == static_cast<uint32_t>(ReceiverLampKind::steady);
+        text += fmt::format("  lamp {}: {}", i, lamp.kind) +
+                (is_steady ? "\n" : fmt::format(" {} \"{}\"\n", tables.lamps[i].index, printable(lamp.name)));
     }
     for (const ReceiverRectRecord& rect : tables.rects)
         text += fmt::format("  instance {} \"{}\": {} x {} texels at ({}, {}), UV set {}\n", rect.instance,

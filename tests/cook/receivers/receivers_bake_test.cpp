@@ -419,16 +419,21 @@ TEST(ReceiversBake, hasTheLightOfTheSkyOverAPlane)
         ASSERT_EQ(baked.light_count, 1u);
         const std::array channels{expected.x, expected.y, expected.z};
         Double3 mean;
-        double largest = 0;
+        double largest = 0, squares = 0;
         for (const Float3& light : baked.irradiance)
         {
             mean = mean + widen(light) * (1 / static_cast<double>(baked.irradiance.size()));
             for (int channel = 0; channel < 3; ++channel)
-                largest = std::max(
-                    largest, std::abs(double{light[channel]} / channels[static_cast<size_t>(channel)] - 1));
+            {
+                const double error = double{light[channel]} / channels[static_cast<size_t>(channel)] - 1;
+                largest = std::max(largest, std::abs(error));
+                squares += error * error / (3 * static_cast<double>(baked.irradiance.size()));
+            }
         }
-        std::printf("sky over a plane: a texel is off by %.2f %% at most\n", 100 * largest);
-        EXPECT_LT(largest, 0.01);
+        std::printf("sky over a plane: %.2f %% rms, a texel is off by %.2f %% at most\n",
+                    100 * std::sqrt(squares), 100 * largest);
+        EXPECT_LT(largest, is_level ? 0.01 : 0.05); // the edge of the ground is noise of 64 rays
+        EXPECT_LT(std::sqrt(squares), 0.015);
         EXPECT_NEAR(mean.x, expected.x, 0.002 * expected.x);
         EXPECT_NEAR(mean.y, expected.y, 0.002 * expected.y);
         EXPECT_NEAR(mean.z, expected.z, 0.002 * expected.z);
@@ -466,20 +471,17 @@ TEST(ReceiversBake, hasHalfTheSkyUnderTheEdgeOfARoof)
 
 TEST(ReceiversBake, hasTheSkyThatWallsGiveBack)
 {
-    // an open box under the sky, and in a black room that shines as the sky does
+    // an open box under the sky, and under a black lid that shines as the sky does
     BakeScene box;
     box.instance_count = 2;
     addRoom(box.triangles, {0, 0, 0}, {2, 2, 1}, {0.8f, 0.6f, 0.4f}, 0);
     std::erase_if(box.triangles, [](const Triangle& triangle) { return triangle.normals[0].z < -0.5f; });
     ASSERT_EQ(box.triangles.size(), 10u);
-    BakeScene under_sky = box, in_room = box;
+    BakeScene under_sky = box, under_lid = box;
     under_sky.sky = constantSky({1, 1, 1});
-    const size_t first = box.triangles.size();
-    addRoom(in_room.triangles, {-20, -20, -20}, {40, 40, 40}, {}, 1);
-    for (size_t t = first; t < in_room.triangles.size(); ++t)
-        in_room.triangles[t].uvs.fill({0, 0});
-    in_room.mesh_lights = {shineAll(in_room, first, {1, 1, 1})};
-    const BakedReceivers baked = bake(under_sky, 12), expected = bake(in_room, 12);
+    addQuad(under_lid.triangles, {0, 0, 1}, {0, 2, 0}, {2, 0, 0}, {}, 1, {{0.5f, 0.5f}, {0.5f, 0.5f}});
+    under_lid.mesh_lights = {shineAll(under_lid, box.triangles.size(), {1, 1, 1})};
+    const BakedReceivers baked = bake(under_sky, 12), expected = bake(under_lid, 12);
     ASSERT_EQ(baked.texels.size(), expected.texels.size());
     Double3 sum, expected_sum;
     for (size_t i = 0; i < baked.texels.size(); ++i)
