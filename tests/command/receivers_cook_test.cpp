@@ -73,6 +73,24 @@ Document makeRoom()
     return document;
 }
 
+/// Floor of its own beside the room, with a sign that shines.
+/// has_lamp  adds a lamp over the floor
+Document makeLobby(bool has_lamp)
+{
+    Document document;
+    const int white = addPlainMaterial(document, "white", {0.8f, 0.8f, 0.8f});
+    addObject(document, "lobby floor", {{makeFloorMesh(), white}});
+    document.nodes.back().placement.translation = {10, 0, 0};
+    if (!has_lamp)
+        return document;
+    addObject(document, "sign", {{makeFloorMesh(), addEmissiveMaterial(document, "glow", {1, 1, 1}, 0.5f)}});
+    document.nodes.back().placement.translation = {10, 0, -5};
+    samples::Light lamp;
+    lamp.name = "lobby lamp";
+    addLight(document, lamp, {10, 2, 0}, {0, 0, 0, 1});
+    return document;
+}
+
 /// Decode a word of RGB9E5, as its format says.
 Float3 decodeWord(uint32_t word)
 {
@@ -92,11 +110,11 @@ protected:
         folder.write("night.hdr", file);
     }
 
-    ProgramEnd cook(const std::vector<std::string>& options)
+    ProgramEnd cook(const std::vector<std::string>& options, const std::string& source = "room.glb")
     {
         std::vector<std::string> words{std::string(HEARTH_BIN) + "/hearth",
                                        "cook",
-                                       "room.glb",
+                                       source,
                                        "-o",
                                        "room.hearth",
                                        "--visibility=off",
@@ -120,6 +138,15 @@ protected:
             folder.run({std::string(HEARTH_BIN) + "/hearth", "inspect", "room.hearth", "--format", "json"});
         EXPECT_EQ(end.exit_code, 0) << end.err;
         return Json::parse(end.out).value();
+    }
+
+    /// Return kinds and names of the lamps of a file.
+    static std::vector<std::string> listLamps(const Json& receivers)
+    {
+        std::vector<std::string> lamps;
+        for (const Json& lamp : receivers["lamps"])
+            lamps.push_back(lamp["kind"].get<std::string>() + " " + lamp["name"].get<std::string>());
+        return lamps;
     }
 
     Sandbox folder;
@@ -175,10 +202,8 @@ TEST_F(CookReceivers, nameTheirLampsAndWhatHasNone)
 
     const Json receivers = inspect()["receivers"];
     EXPECT_EQ(receivers["codec"], "rgb9e5");
-    std::vector<std::string> lamps;
-    for (const Json& lamp : receivers["lamps"])
-        lamps.push_back(lamp["kind"].get<std::string>() + " " + lamp["name"].get<std::string>());
-    EXPECT_EQ(lamps, (std::vector<std::string>{"steady ", "light bulb", "light desk", "light sun"}));
+    EXPECT_EQ(listLamps(receivers),
+              (std::vector<std::string>{"steady ", "light bulb", "light desk", "light sun"}));
     ASSERT_EQ(receivers["rectangles"].size(), 1u);
     EXPECT_EQ(receivers["rectangles"][0]["name"], "floor");
     EXPECT_EQ(receivers["rectangles"][0]["uv_set"], 0);
@@ -204,6 +229,65 @@ TEST_F(CookReceivers, nameTheirLampsAndWhatHasNone)
         EXPECT_TRUE(folder.has(picture));
     }
     EXPECT_EQ(folder.run({program, "extract", "room.hearth", "--receivers", "-o", "light.csv"}).exit_code, 2);
+}
+
+TEST_F(CookReceivers, areThoseOfAllSources)
+{
+    ASSERT_TRUE(samples::writeFile(folder / "lobby.glb", encodeGlb(makeLobby(true))).ok());
+    cook({"lobby.glb", "--receivers"});
+    const Json receivers = inspect()["receivers"];
+    EXPECT_EQ(listLamps(receivers),
+              (std::vector<std::string>{"steady ", "light bulb", "light desk", "light sun",
+                                        "light lobby lamp", "instance sign"}));
+    std::set<std::string> names;
+    for (const Json& rectangle : receivers["rectangles"])
+        names.insert(rectangle["name"].get<std::string>());
+    EXPECT_EQ(names, (std::set<std::string>{"floor", "lobby floor", "sign"}));
+    // the lamp of the lobby is the brightest in the middle of its floor
+    const PackView pack = open("room.hearth");
+    const formats::ReceiverTables tables = pack.receivers();
+    const auto rect = std::ranges::find_if(
+        tables.rects, [&](const formats::ReceiverRectRecord& at)
+        { return pack.text(pack.nodes()[pack.instances()[at.instance].node].name) == "lobby floor"; });
+    ASSERT_NE(rect, tables.rects.end());
+    const uint32_t middle = (rect->x + 32) | (rect->y + 32) << 14;
+    size_t found = 0;
+    for (const formats::ReceiverBlockRecord& block : tables.blocks)
+        for (uint32_t i = 0; i < block.texel_count; ++i)
+        {
+            const uint32_t* const word = &tables.words[block.first_word + i];
+            if (*word != middle)
+                continue;
+            for (uint32_t color = 0; color < block.color_count; ++color)
+                if ((block.lamps[color / 2] >> (16 * (color % 2)) & 0xFFFF) == 4)
+                {
+                    const Float3 light = decodeWord(word[(1 + color) * block.texel_count]);
+                    EXPECT_NEAR(light.x * tables.atlas.scale, 0.25f, 0.01f); // 1 cd at 2 m, and dropped ones
+                    ++found;
+                }
+        }
+    EXPECT_EQ(found, 1u);
+}
+
+TEST_F(CookReceivers, haveTheDefaultSunInTheSteadyLight)
+{
+    ASSERT_TRUE(samples::writeFile(folder / "lobby.glb", encodeGlb(makeLobby(false))).ok());
+    cook({"--receivers"}, "lobby.glb");
+    EXPECT_EQ(listLamps(inspect()["receivers"]), std::vector<std::string>{"steady "});
+}
+
+TEST_F(CookReceivers, sayWhyThereAreNone)
+{
+    Document document = makeLobby(false);
+    document.meshes[0].primitives[0].mesh.uvs.clear();
+    ASSERT_TRUE(samples::writeFile(folder / "plain.glb", encodeGlb(document)).ok());
+    const ProgramEnd end = cook({"--receivers"}, "plain.glb");
+    EXPECT_NE(end.err.find("mesh lobby floor of plain.glb: warning: it has no UVs [W1406]"),
+              std::string::npos)
+        << end.err;
+    EXPECT_FALSE(inspect().contains("receivers"));
+    const ProgramEnd text = folder.run({std::string(HEARTH_BIN) + "/hearth", "inspect", "room.hearth"});
+    EXPECT_NE(text.out.find("receivers  none: no instance"), std::string::npos) << text.out;
 }
 
 TEST_F(CookReceivers, haveTheSameBytesForAnyThreads)
