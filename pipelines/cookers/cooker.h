@@ -79,6 +79,8 @@ struct Cooker
     /// Convert settings into arguments; null: it has none. Unset settings are omitted, so changing a default
     /// only re-keys that setting. errors: profile_value where settings contradict each other
     Result<Arguments> (*makeArguments)(const settings::Values& values) = nullptr;
+    /// Return further words of a cooker of sources, by settings of the pack; null: none
+    std::vector<std::string> (*makeWordsOfPack)(const settings::Values& values) = nullptr;
     Cost cost{};
 };
 

@@ -59,6 +59,18 @@ Result<Arguments> makeImportArguments(const Values& values)
     return arguments;
 }
 
+/// Meshes get UVs for the light that the pack bakes into texels.
+std::vector<std::string> makeImportWordsOfPack(const Values& values)
+{
+    if (!isEnabled(*findCooker("receivers"), values, {}))
+        return {};
+    constexpr std::string_view kDensity = "receivers.texels_per_metre";
+    const Value* const density = findValue(values, kDensity);
+    return {"--receivers", density != nullptr
+                               ? density->text
+                               : std::string(findSetting(profileSettings(), kDensity)->default_text)};
+}
+
 } // namespace
 
 Cooker describeImport()
@@ -68,6 +80,7 @@ Cooker describeImport()
             .has_statistics = true,
             .settings = makeImportSettings(),
             .makeArguments = makeImportArguments,
+            .makeWordsOfPack = makeImportWordsOfPack,
             .cost = {16 * kMiB, 6, 0.03}};
 }
 

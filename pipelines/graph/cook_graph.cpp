@@ -168,6 +168,9 @@ Status addSource(size_t source, bool is_listed, Draft& draft)
             HEARTH_TRY(addSourceFiles(draft.settings, source, action));
         for (const std::string_view read : cooker.reads)
             addInput(action, partInput(draft.graph, actions.at(read)));
+        if (cooker.makeWordsOfPack != nullptr)
+            for (const std::string& word : cooker.makeWordsOfPack(draft.settings.values_of_pack))
+                addWord(action, word);
         HEARTH_ASSIGN_OR_RETURN(actions[cooker.name],
                                 finishAction(cooker, values, std::move(action), draft.graph));
     }

@@ -34,7 +34,7 @@ struct Arguments
     std::string statistics;
     double crease_angle_deg = 60;
     double scale = 1;
-    double receiver_texel_size = 0;
+    double receiver_density = 0;
     std::string up = "y";
     std::string layer;
     std::string icc = "ignore";
@@ -56,7 +56,8 @@ Status readAll(const Arguments& arguments, std::span<const tools::LodFile> lods,
 {
     import::ImportOptions options;
     options.crease_angle_rad = static_cast<float>(arguments.crease_angle_deg * kRadiansPerDegree);
-    options.receiver_texel_size = arguments.receiver_texel_size / arguments.scale;
+    if (arguments.receiver_density > 0)
+        options.receiver_texel_size = 1 / (arguments.receiver_density * arguments.scale);
     if (!arguments.depfile.empty())
         options.reads = &reads;
     import::ImagesProgram images(tools::programFolder() + "/hearth-images");
@@ -126,9 +127,9 @@ int program(int argc, char** argv)
     app.addOption("--up", arguments.up, "the axis of the source that points up")
         .choices({"y", "z"})
         .showDefault();
-    app.addOption("--receiver-texel", arguments.receiver_texel_size,
-                  "metres of a texel of baked light: meshes without UVs for it get some")
-        .range(0.001, 100.0);
+    app.addOption("--receivers", arguments.receiver_density,
+                  "texels of baked light a metre, for which meshes get UVs that have none")
+        .range(1.0 / 1024, 1024.0);
     app.addOption("--layer", arguments.layer,
                   "of EXR images: name of the part, or of the layer in a part, to read; else the first part "
                   "with colours");

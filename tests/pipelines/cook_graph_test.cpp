@@ -135,6 +135,8 @@ TEST(CookGraph, bakesReceiversUnderTheProbeOfTheSky)
                                {"receivers.lights", {"3", ""}}};
     settings.values_of_source.assign(1, {{"visibility.mode", {"\"off\"", ""}}});
     const std::vector<Words> commands = getCommands(makeCookGraph(settings).value());
+    EXPECT_EQ(commands.front(), (Words{"bin/hearth-import", "a.obj", "--receivers", "16", "-o",
+                                       "{import.part}", "--stats", "{import.json}"}));
     EXPECT_EQ(
         commands.at(commands.size() - 2),
         (Words{"bin/hearth-receivers", "{import.part}", "{clusters.part}", "{textures.part}", "--probe",
