@@ -227,7 +227,7 @@ void addStrip(PackModel& pack)
 
 void addTriangle(PackModel& pack)
 {
-    beginMesh(pack, "triangle", kVertexUv0 | kVertexInfluences);
+    beginMesh(pack, "triangle", kVertexUv0 | 14u << kVertexUvStepShift | kVertexInfluences);
     pack.meshes.back().skinned = 1;
     pack.meshes.back().morph_target_count = 1;
     const uint32_t first = static_cast<uint32_t>(pack.clusters.size());
