@@ -11,7 +11,7 @@ namespace
 
 using namespace settings;
 
-/// Make the switch. It has no auto: receivers need UVs that most sources lack.
+/// Make the switch. It has no auto: only the game knows whether it dims its lamps.
 Setting makeReceiverSwitch()
 {
     Setting setting = choiceSetting("receivers.mode",

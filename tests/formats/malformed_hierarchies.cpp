@@ -23,11 +23,12 @@ constexpr uint32_t kHuge = 0xFFFFFFF0u; ///< first + count overflows 32 bits
 constexpr size_t kStripVertices = 2 * 4;
 constexpr size_t kStripIndices = kStripVertices + 4 * 6 * 4; ///< first cluster of a page
 
-// The cluster of the triangle: vertices of 6 words: position, joints and weights; then indices and the
-// section of one target.
-constexpr size_t kTriangleJoints = 2 * 4;
-constexpr size_t kTriangleWeights = 4 * 4;
-constexpr size_t kTriangleIndices = 3 * 6 * 4;
+// The cluster of the triangle: the base of its UVs; vertices of 7 words: position, UV, joints and weights; then
+// indices and the section of one target.
+constexpr size_t kTriangleVertices = 2 * 4;
+constexpr size_t kTriangleJoints = kTriangleVertices + 3 * 4;
+constexpr size_t kTriangleWeights = kTriangleVertices + 5 * 4;
+constexpr size_t kTriangleIndices = kTriangleVertices + 3 * 7 * 4;
 constexpr size_t kTriangleMorphs = kTriangleIndices + 4;
 
 /// Overwrite a word of the first cluster of a page.
@@ -182,7 +183,11 @@ std::vector<MalformedPack> malformedTables()
         {"clusterConeAxis", Issue::meaning_value, "cluster 1",
          [](PackModel& p) { p.clusters[1].cone_axis = 0x0080; }},
         {"clusterUvDensity", Issue::meaning_value, "cluster 6",
-         [](PackModel& p) { p.clusters[6].uv_density = 1; }},
+         [](PackModel& p)
+         {
+             p.meshes[2].attributes = kVertexInfluences;
+             p.clusters[6].uv_density = 1;
+         }},
         {"clusterRefinedMissing", Issue::meaning_tree, "cluster 0",
          [](PackModel& p) { p.clusters[0].refined_group = kInvalidIndex; }},
         {"clusterRefinedAtLevel0", Issue::meaning_tree, "cluster 2",
@@ -280,7 +285,7 @@ std::vector<MalformedPack> malformedGeometry()
         {"positionOutsideBox", Issue::meaning_bounds, "cluster 2",
          [](PackModel& p) { poke(p, 1, kStripVertices + 2, uint16_t{97}); }, true},
         {"positionHalfUsed", Issue::meaning_padding, "cluster 6",
-         [](PackModel& p) { poke(p, 3, 6, uint16_t{1}); }, true},
+         [](PackModel& p) { poke(p, 3, kTriangleVertices + 6, uint16_t{1}); }, true},
         {"normalCode", Issue::meaning_geometry, "cluster 4",
          [](PackModel& p) { poke(p, 2, kStripVertices + 6, uint16_t{0x0080}); }, true},
         {"tangentCode", Issue::meaning_geometry, "cluster 4",
