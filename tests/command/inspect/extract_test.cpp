@@ -152,7 +152,7 @@ TEST_F(ExtractCut, writesTheAttributesThatTheMeshHas)
     EXPECT_EQ(std::vector<float>(vertex.end() - 2, vertex.end()), (std::vector<float>{0, 1}));
 
     const Ply triangle = cut(2, 0);
-    EXPECT_EQ(triangle.properties, (std::vector<std::string>{"x", "y", "z"}));
+    EXPECT_EQ(triangle.properties, (std::vector<std::string>{"x", "y", "z", "s", "t"}));
     EXPECT_EQ(triangle.triangles, (std::vector<std::array<uint32_t, 3>>{{0, 1, 2}}));
 }
 
@@ -180,9 +180,11 @@ TEST_F(ExtractCut, writesWhatVerticesSee)
 TEST_F(ExtractCut, posesWhatJointsAndMorphTargetsMove)
 {
     // the target lifts the last vertex by a half: the rest pose has weight 0.5, the clip 0 at first, then 1
-    EXPECT_EQ(cut(2, 0).vertices[2], (std::vector<float>{1, 0.25f, 0}));
-    EXPECT_EQ(cut(2, 0, command::ClipTime{"morph", 0.5}).vertices[2], (std::vector<float>{1, 0, 0}));
-    EXPECT_EQ(cut(2, 0, command::ClipTime{"morph", 7}).vertices[2], (std::vector<float>{1, 0.5f, 0}));
+    EXPECT_EQ(cut(2, 0).vertices[2], (std::vector<float>{1, 0.25f, 0, 0.25f, 0}));
+    EXPECT_EQ(cut(2, 0, command::ClipTime{"morph", 0.5}).vertices[2],
+              (std::vector<float>{1, 0, 0, 0.25f, 0}));
+    EXPECT_EQ(cut(2, 0, command::ClipTime{"morph", 7}).vertices[2],
+              (std::vector<float>{1, 0.5f, 0, 0.25f, 0}));
 }
 
 TEST_F(ExtractCut, putsOtherMeshesInTheSceneWithAClip)
