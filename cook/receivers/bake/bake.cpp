@@ -137,7 +137,8 @@ std::optional<BakedReceivers> bakeReceivers(const BakeScene& scene, const BakeSe
     for (size_t first = 0; first < baked.light_count; first += kLightGroup)
     {
         const size_t count = std::min(kLightGroup, baked.light_count - first);
-        const GroupLight light = computeLight(scene, rays, elements, table, first, count, settings.bounces);
+        const GroupLight light =
+            computeLight(scene, rays, elements, domains, table, first, count, settings.bounces);
         baked.shadow_rays += light.shadow_rays;
         for (size_t i = 0; i < texels.size(); ++i)
             for (size_t k = 0; k < count; ++k)

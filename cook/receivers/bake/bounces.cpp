@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/receivers/bake/bounces.h"
 
+#include "cook/receivers/bake/bright_rays.h"
 #include "cook/sampling/owen_sobol.h"
 #include "formats/base/assert.h"
 #include "formats/gpu_shared/brick_lighting.h"
@@ -72,17 +73,6 @@ std::vector<float> findGreatest(const std::vector<float>& values, size_t count)
     return greatest;
 }
 
-/// Leave of suns what arrives after a bounce.
-void removeDirectOfSuns(const BakeScene& scene, size_t first, size_t count, const std::vector<float>& direct,
-                        std::vector<float>& irradiance)
-{
-    for (size_t k = 0; k < count; ++k)
-        if (scene.isSun(first + k))
-            for (size_t i = 3 * k; i < direct.size(); i += 3 * count)
-                for (size_t channel = i; channel < i + 3; ++channel)
-                    irradiance[channel] -= direct[channel];
-}
-
 /// Set the light that elements send out, over 1 / pi: albedo times irradiance.
 void reflectFrom(size_t element, const Elements& elements, size_t count, const float* irradiance,
                  std::vector<float>& outgoing)
@@ -96,20 +86,23 @@ void reflectFrom(size_t element, const Elements& elements, size_t count, const f
 } // namespace
 
 GroupLight computeLight(const BakeScene& scene, const BakeRays& rays, const Elements& elements,
-                        const GatherTable& table, size_t first, size_t count, uint32_t bounces)
+                        std::span<const TexelDomain> domains, const GatherTable& table, size_t first,
+                        size_t count, uint32_t bounces)
 {
     HEARTH_ASSERT(count > 0 && count <= kLightGroup && first + count <= scene.lightCount());
     GroupLight light;
     const std::vector<float> direct =
         computeDirect(scene, rays, elements, table, first, count, light.shadow_rays);
-    light.irradiance = direct;
-    std::vector<float> outgoing(direct.size()), next(direct.size());
+    std::vector<float> irradiance = direct;
+    // what elements sent out before the last bounce, and what they send out after it
+    std::vector<float> before(direct.size()), after(direct.size());
     for (size_t element = 0; element < elements.list().size(); ++element)
-        reflectFrom(element, elements, count, &direct[element * 3 * count], outgoing);
+        reflectFrom(element, elements, count, &direct[element * 3 * count], after);
     const std::vector<float> greatest = findGreatest(direct, count);
     bool is_settled = false;
     for (uint32_t bounce = 0; bounce < bounces && !is_settled; ++bounce)
     {
+        before.swap(after);
         std::atomic<bool> has_changed = false;
         tbb::parallel_for(Blocks(0, elements.list().size(), 256),
                           [&](const Blocks& range)
@@ -118,8 +111,8 @@ GroupLight computeLight(const BakeScene& scene, const BakeRays& rays, const Elem
                               bool changed = false;
                               for (size_t element = range.begin(); element != range.end(); ++element)
                               {
-                                  table.gather(element, outgoing, 3 * count, mean.data());
-                                  float* values = &light.irradiance[element * 3 * count];
+                                  table.gather(element, before, 3 * count, mean.data());
+                                  float* values = &irradiance[element * 3 * count];
                                   for (size_t k = 0; k < 3 * count; ++k)
                                   {
                                       const float value = direct[element * 3 * count + k] + mean[k];
@@ -127,15 +120,19 @@ GroupLight computeLight(const BakeScene& scene, const BakeRays& rays, const Elem
                                                  kSettled * value + kDark * kSettled * greatest[k / 3];
                                       values[k] = value;
                                   }
-                                  reflectFrom(element, elements, count, values, next);
+                                  reflectFrom(element, elements, count, values, after);
                               }
                               if (changed)
                                   has_changed = true;
                           });
-        outgoing.swap(next);
         is_settled = !has_changed;
     }
-    removeDirectOfSuns(scene, first, count, direct, light.irradiance);
+    const bool has_sky = scene.isSky(first + count - 1);
+    light.irradiance =
+        gatherTexels(scene, domains, table, before, count, has_sky ? count - 1 : kInvalidIndex);
+    for (size_t i = 0; i < light.irradiance.size(); ++i)
+        if (const size_t number = first + i / 3 % count; !scene.isSun(number) && !scene.isSky(number))
+            light.irradiance[i] += direct[i];
     return light;
 }
 

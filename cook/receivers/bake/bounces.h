@@ -11,7 +11,7 @@ namespace hearth::receivers
 /// two cache lines for all of them.
 inline constexpr size_t kLightGroup = 8;
 
-/// Irradiance of each element under each light of a group, 3 values each. Of suns it is what arrives after a
+/// Irradiance of each texel under each light of a group, 3 values each. Of suns it is what arrives after a
 /// bounce: a game draws their own light with sharp shadows.
 struct GroupLight
 {
@@ -20,11 +20,13 @@ struct GroupLight
 };
 
 /// Compute irradiance E = D + G(albedo E), with D of the lights and G the mean of a gather table: the limit
-/// of as many bounces as asked for, or as many as change an element by more than kSettled of its value. Does
-/// not depend on the number of threads.
+/// of as many bounces as asked for, or as many as change an element by more than kSettled of its value. The
+/// last one spreads what few rays meet (gatherTexels). Does not depend on the number of threads.
+/// domains       of the elements
 /// first, count  lights of the scene, 1 to kLightGroup
 GroupLight computeLight(const BakeScene& scene, const BakeRays& rays, const Elements& elements,
-                        const GatherTable& table, size_t first, size_t count, uint32_t bounces);
+                        std::span<const TexelDomain> domains, const GatherTable& table, size_t first,
+                        size_t count, uint32_t bounces);
 
 /// Share of an element's light below which a bounce ends the iteration.
 inline constexpr float kSettled = 0.0003f;

@@ -28,6 +28,12 @@ public:
     /// backs of surfaces that have none: they are inside of walls, and have no light.
     uint32_t openPoints(size_t element) const { return open_[element]; }
 
+    /// Return the elements that the rays of an element meet, those of a point together; kInvalidIndex: none.
+    std::span<const uint32_t> hits(size_t element) const
+    {
+        return std::span(hits_).subspan(element * kElementRays, kElementRays);
+    }
+
     /// Return the mean over the open points' rays of a value of the elements that they meet, 0 where they
     /// meet none. 0 for an element without open points.
     /// values  `count` of each element

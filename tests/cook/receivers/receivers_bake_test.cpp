@@ -494,6 +494,50 @@ TEST(ReceiversBake, hasTheSkyThatWallsGiveBack)
     EXPECT_NEAR(sum.z / expected_sum.z, 1, 0.01);
 }
 
+TEST(ReceiversBake, hasNoSpecksUnderASmallBrightSurface)
+{
+    // a lamp below a plate of 20 cm, which a fifth of the texels' rays meet at all: the light that it gives back
+    BakeScene scene = makeFloor({});
+    scene.instance_count = 2;
+    constexpr float kHigh = 1.5f, kLamp = 1.2f, kHalf = 0.1f, kAlbedo = 0.8f;
+    addQuad(scene.triangles, {-kHalf, -kHalf, kHigh}, {0, 2 * kHalf, 0}, {2 * kHalf, 0, 0},
+            {kAlbedo, kAlbedo, kAlbedo}, 1, {{0.5f, 0.5f}, {0.5f, 0.5f}});
+    scene.lamps = {pointLamp({0, 0, kLamp}, {1, 1, 1})};
+    const BakedReceivers all = bakeReceivers(scene, {.texels_per_metre = 16}).value();
+    const BakedReceivers direct = bakeReceivers(scene, {.texels_per_metre = 16, .bounces = 0}).value();
+    const auto giveBack = [](Float3 to)
+    {
+        constexpr int kParts = 10;
+        double sum = 0;
+        for (int i = 0; i < kParts * kParts; ++i)
+        {
+            const double step = 2 * double{kHalf} / kParts, x = (i % kParts + 0.5) * step - double{kHalf},
+                         y = (i / kParts + 0.5) * step - double{kHalf}, below = double{kHigh - kLamp};
+            const double lit = below / std::pow(x * x + y * y + below * below, 1.5);
+            const double distance2 = (x - double{to.x}) * (x - double{to.x}) +
+                                     (y - double{to.y}) * (y - double{to.y}) + double{kHigh * kHigh};
+            sum += double{kAlbedo} / std::numbers::pi * lit * step * step * double{kHigh * kHigh} /
+                   (distance2 * distance2);
+        }
+        return sum;
+    };
+    double squares = 0, errors = 0, found_sum = 0, sum = 0;
+    for (size_t i = 0; i < all.texels.size(); ++i)
+    {
+        if (all.texels[i].is_copy)
+            continue;
+        const double found = double{all.light(i)[0].x - direct.light(i)[0].x},
+                     expected = giveBack(all.texels[i].position);
+        errors += (found - expected) * (found - expected);
+        squares += expected * expected;
+        found_sum += found;
+        sum += expected;
+    }
+    std::printf("small bright surface: %.1f %% rms\n", 100 * std::sqrt(errors / squares));
+    EXPECT_LT(std::sqrt(errors / squares), 0.3);
+    EXPECT_NEAR(found_sum / sum, 1, 0.05);
+}
+
 TEST(ReceiversBake, leavesTheDirectLightOfSunsOut)
 {
     // a lamp that is far away is a sun, but for its own light
