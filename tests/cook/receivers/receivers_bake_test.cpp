@@ -496,7 +496,7 @@ TEST(ReceiversBake, hasTheSkyThatWallsGiveBack)
 
 TEST(ReceiversBake, hasNoSpecksUnderASmallBrightSurface)
 {
-    // a lamp below a plate of 20 cm, which a fifth of the texels' rays meet at all: the light that it gives back
+    // a lamp below a plate of 20 cm gives back light along one gather ray of some hundred
     BakeScene scene = makeFloor({});
     scene.instance_count = 2;
     constexpr float kHigh = 1.5f, kLamp = 1.2f, kHalf = 0.1f, kAlbedo = 0.8f;
