@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace hearth::receivers
 {
@@ -102,23 +103,47 @@ public:
     }
 
     /// Call visit(texel, distance) for the texels around a cell and that of the cell, with distances in cells.
-    template <typename Visit>
-    void forEachAround(int32_t x, int32_t y, const Visit& visit) const
+    /// Each must be reached from the cell across the edges of texels that count: no light goes through walls.
+    /// counts  is called with a texel and its distance
+    template <typename Counts, typename Visit>
+    void visitAround(int32_t x, int32_t y, const Counts& counts, const Visit& visit) const
     {
-        for (int32_t row = std::max(y - kSpreadTexels, 0); row <= std::min(y + kSpreadTexels, height_ - 1);
-             ++row)
-            for (int32_t column = std::max(x - kSpreadTexels, 0);
-                 column <= std::min(x + kSpreadTexels, width_ - 1); ++column)
-            {
-                const int32_t squared = (row - y) * (row - y) + (column - x) * (column - x);
-                const uint32_t texel = texels_[static_cast<size_t>(row) * static_cast<size_t>(width_) +
-                                               static_cast<size_t>(column)];
-                if (texel != kInvalidIndex && squared <= kSpreadTexels * kSpreadTexels)
-                    visit(texel, std::sqrt(static_cast<float>(squared)));
-            }
+        constexpr int32_t kSide = 2 * kSpreadTexels + 1;
+        std::array<bool, size_t{kSide} * kSide> is_known{};
+        std::array<std::pair<int32_t, int32_t>, is_known.size()> reached;
+        size_t count = 0;
+        const auto reach = [&](int32_t dx, int32_t dy)
+        {
+            const int32_t squared = dx * dx + dy * dy;
+            if (squared > kSpreadTexels * kSpreadTexels)
+                return;
+            bool& known = is_known[static_cast<size_t>((dy + kSpreadTexels) * kSide + dx + kSpreadTexels)];
+            const uint32_t texel = std::exchange(known, true) ? kInvalidIndex : find(x + dx, y + dy);
+            const float distance = std::sqrt(static_cast<float>(squared));
+            if (texel == kInvalidIndex || !counts(texel, distance))
+                return;
+            visit(texel, distance);
+            reached[count++] = {dx, dy};
+        };
+        reach(0, 0);
+        for (size_t i = 0; i < count; ++i)
+        {
+            const auto [dx, dy] = reached[i];
+            reach(dx - 1, dy);
+            reach(dx + 1, dy);
+            reach(dx, dy - 1);
+            reach(dx, dy + 1);
+        }
     }
 
 private:
+    uint32_t find(int32_t x, int32_t y) const
+    {
+        return x < 0 || y < 0 || x >= width_ || y >= height_
+                   ? kInvalidIndex
+                   : texels_[static_cast<size_t>(y) * static_cast<size_t>(width_) + static_cast<size_t>(x)];
+    }
+
     int32_t width_, height_;
     std::vector<uint32_t> texels_;
 };
@@ -201,18 +226,18 @@ public:
         const TexelPlace& at = places_[number];
         float weights = 0;
         std::array<float, 3 * kLightGroup> sums{};
-        grid_.forEachAround(domain_.texels[number].x, domain_.texels[number].y,
-                            [&](uint32_t texel, float distance)
-                            {
-                                if (!isNear(at, places_[texel - first_], distance))
-                                    return;
-                                const float weight = 1 - distance / (kSpreadTexels + 1);
-                                weights += weight;
-                                if (split.has_bright[texel] == 0)
-                                    return;
-                                for (size_t k = 0; k < count; ++k)
-                                    sums[k] += split.bright[texel * count + k] * weight;
-                            });
+        grid_.visitAround(
+            domain_.texels[number].x, domain_.texels[number].y,
+            [&](uint32_t texel, float distance) { return isNear(at, places_[texel - first_], distance); },
+            [&](uint32_t texel, float distance)
+            {
+                const float weight = 1 - distance / (kSpreadTexels + 1);
+                weights += weight;
+                if (split.has_bright[texel] == 0)
+                    return;
+                for (size_t k = 0; k < count; ++k)
+                    sums[k] += split.bright[texel * count + k] * weight;
+            });
         for (size_t k = 0; k < count; ++k)
             light[(first_ + number) * count + k] += sums[k] / weights;
     }

@@ -494,6 +494,31 @@ TEST(ReceiversBake, hasTheSkyThatWallsGiveBack)
     EXPECT_NEAR(sum.z / expected_sum.z, 1, 0.01);
 }
 
+TEST(ReceiversBake, spreadsNoSpecksThroughWalls)
+{
+    // one floor goes below a wall of 20 cm; on one side of it a lamp hangs below a small plate
+    BakeScene scene = makeFloor();
+    scene.instance_count = 2;
+    constexpr float kWall = 0.1f, kHigh = 1.5f;
+    std::vector<Triangle> walls;
+    addRoom(walls, {-3, -3, -0.001f}, {3 - kWall, 6, 2}, kGrey, 1);
+    addRoom(walls, {kWall, -3, -0.001f}, {3 - kWall, 6, 2}, kGrey, 1);
+    addQuad(walls, {-0.5f, -0.1f, kHigh}, {0, 0.2f, 0}, {0.2f, 0, 0}, {0.8f, 0.8f, 0.8f}, 1);
+    for (Triangle& triangle : walls)
+        triangle.uvs.fill({0.5f, 0.5f});
+    scene.triangles.insert(scene.triangles.end(), walls.begin(), walls.end());
+    scene.lamps = {pointLamp({-0.4f, 0, kHigh - 0.2f}, {1, 1, 1})};
+    const BakedReceivers baked = bake(scene, 16);
+    size_t dark = 0;
+    for (size_t i = 0; i < baked.texels.size(); ++i)
+        if (baked.texels[i].position.x > kWall + 2.0f / 16)
+        {
+            ASSERT_EQ(baked.light(i)[0], Float3{}) << baked.texels[i].position.x;
+            ++dark;
+        }
+    EXPECT_GT(dark, 500u);
+}
+
 TEST(ReceiversBake, hasNoSpecksUnderASmallBrightSurface)
 {
     // a lamp below a plate of 20 cm gives back light along one gather ray of some hundred
