@@ -34,8 +34,8 @@ HEARTH_CONSTANT uint kSceneLighting = 8;
 HEARTH_CONSTANT uint kSceneShadows = 9; ///< scenes with shadows only; so is the next one
 HEARTH_CONSTANT uint kSceneShadowMaps = 10;
 HEARTH_CONSTANT uint kSceneSpecularTable = 11; ///< one white texel in scenes without a table
-HEARTH_CONSTANT uint kSceneReflectance = 12;   ///< tables of reflectance.h and, below it, of sheen.h
-HEARTH_CONSTANT uint kSceneSkyTable = 13;      ///< table of sky.h; kSceneSkyCube follows below
+HEARTH_CONSTANT uint kSceneShadingTables = 12; ///< reflectance.h
+HEARTH_CONSTANT uint kSceneReceivers = 13;     ///< atlas of receivers; one white texel in scenes without one
 
 /// Bindings of a material.
 HEARTH_CONSTANT uint kMaterialBlock = 14;

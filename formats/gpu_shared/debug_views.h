@@ -32,6 +32,7 @@ HEARTH_CONSTANT uint kViewGi = 18;            ///< global illumination alone, on
 // lists of lights
 HEARTH_CONSTANT uint kViewLightCount = 19; ///< lights that a pixel evaluates, without those that all do
 HEARTH_CONSTANT uint kViewLightCells = 20; ///< cells of the light grid
+HEARTH_CONSTANT uint kViewReceivers = 21; ///< irradiance of the atlas alone, in its texels, on white surfaces
 
 HEARTH_SHARED_END
 
@@ -89,7 +90,8 @@ struct DebugView
     VIEW(SHADOW_MAPS, kViewShadowMaps, "shadow-maps", shadow_maps, "grey: none")                             \
     VIEW(LIGHT_COUNT, kViewLightCount, "light-count", surface,                                               \
          "blue: 1, green: 4, yellow: 8, red: 16, white: 32")                                                 \
-    VIEW(LIGHT_CELLS, kViewLightCells, "light-cells", surface, "")
+    VIEW(LIGHT_CELLS, kViewLightCells, "light-cells", surface, "")                                           \
+    VIEW(RECEIVERS, kViewReceivers, "receivers", surface, "texels of baked light; violet: none")
 
 #define HEARTH_LIST_VIEW(c_name, number, name, shader, note)                                                 \
     DebugView{number, name, ViewShader::shader, note},

@@ -26,6 +26,13 @@ HEARTH_SHARED_BEGIN
 HEARTH_CONSTANT uint kReflectanceColumns = 64;
 HEARTH_CONSTANT uint kReflectanceRows = 32;
 
+/// Image with the tables that shading samples, since a stage has few images: this one, beside it that of
+/// sheen.h, below both that of sky.h. Its sides are powers of two, so that coordinates are exact.
+HEARTH_CONSTANT uint kShadingTablesWidth = 128;
+HEARTH_CONSTANT uint kShadingTablesHeight = 64;
+HEARTH_CONSTANT uint kSheenTableColumn = 64;
+HEARTH_CONSTANT uint kSkyTableRow = 32;
+
 /// Roughness of the first row; a smaller roughness is clamped to it, as in shading.
 HEARTH_CONSTANT Half kMinReflectanceRoughness = 0.045f;
 

@@ -80,7 +80,7 @@ struct Light
     float cone_scale; ///< spot: saturate(dot(direction, from light) * cone_scale + cone_offset)^2
     float cone_offset;
     uint reflector_gain; ///< reflector.h: the brightest sample, encodeRadiance; kNoReflector: none
-    uint reflector_axis; ///< coded as normals of faces
+    uint reflector_axis; ///< coded as normals of faces, and bit kLightBaked (receivers/receiver_rows.h)
     uint reflected0;     ///< 4 samples of 8 bits, the first in the low byte, like the next ones
     uint reflected1;
     uint reflected2;
@@ -106,10 +106,14 @@ struct Lighting
     uint first_list_word;  ///< word of the buffer at which the lists of the frame begin
     uint first_cell_word;  ///< of the words of lists: of cells, tiles or slots
     uint first_index_word;
-    uint index_words;   ///< room for indices
-    uint list_count;    ///< lists of the frame; of slots, the room for their words
-    uint first_in_view; ///< row of 64 bytes: CellLight of the first ranged light of the frame
-    uint sky_image_row; ///< row of 16 bytes of the buffer: kSkyImageRows (sky.h), or kNoSkyImage
+    uint index_words;     ///< room for indices
+    uint list_count;      ///< lists of the frame; of slots, the room for their words
+    uint first_in_view;   ///< row of 64 bytes: CellLight of the first ranged light of the frame
+    uint sky_image_row;   ///< row of 16 bytes of the buffer: kSkyImageRows (sky.h), or kNoSkyImage
+    uint receivers_row;   ///< row of 16 bytes of the buffer: ReceiverRow of the first instance
+    float receiver_scale; ///< factor of the atlas's texels
+    float receiver_width; ///< texels of the atlas
+    float receiver_height;
     LightGrid grid;
     LightCascade cascades[kLightCascades];
     LightCascade tiles; ///< of the image: one slab, each tile with depths of its own
@@ -153,7 +157,7 @@ HEARTH_SHARED_END
 static_assert(sizeof(hearth::shared::Material) == 224);
 static_assert(sizeof(hearth::shared::MaterialLayers) == 176);
 static_assert(sizeof(hearth::shared::Light) == 96);
-static_assert(sizeof(hearth::shared::Lighting) == 80 + 112 + 64 * (hearth::shared::kLightCascades + 1));
+static_assert(sizeof(hearth::shared::Lighting) == 96 + 112 + 64 * (hearth::shared::kLightCascades + 1));
 #endif
 
 #endif

@@ -266,6 +266,7 @@ Result<gpu::FrameInput> makeInput(const hearth_scene& scene, const gpu::FrameTar
                            .poses = scene.poses,
                            .shadow_spheres = scene.shadow_spheres,
                            .lights = scene.lights,
+                           .lamp_weights = scene.lamp_weights,
                            .emission = scene.emissions,
                            .timestamps = frame.timestamps};
 }
@@ -285,6 +286,7 @@ Status beginFrame(hearth_scene& scene, const hearth_frame& frame)
     HEARTH_TRY(makeMoves(scene, frame));
     HEARTH_TRY(makePoses(scene, frame));
     HEARTH_TRY(makeLights(scene, frame));
+    HEARTH_TRY(makeLampWeights(scene, frame));
     HEARTH_TRY(makeEmissions(scene, frame));
     return makeShadowSpheres(scene, frame);
 }

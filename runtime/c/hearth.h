@@ -322,7 +322,7 @@ typedef struct hearth_scene_info
 {
     uint32_t struct_size;
     uint32_t instance_count;
-    uint32_t dropped_lights; /* lights beyond the capacity, not drawn */
+    uint32_t dropped_lights;   /* lights beyond the capacity, not drawn */
     uint32_t decoded_textures; /* textures of formats that the device lacks */
     /* Bounds of the instances as loaded; box_min is above box_max if there is nothing to draw. */
     float box_min[3];
@@ -370,7 +370,7 @@ typedef struct hearth_stream_counters
     uint64_t texture_bytes_on_device; /* at most texture_bytes_in_use */
     uint64_t texture_bytes_streamed;  /* so far */
     uint32_t texture_failures;        /* mips that could not be read, so far */
-    float texture_error_scale;        /* pixels a texel that are asked for: above 1 if the share is too small */
+    float texture_error_scale; /* pixels a texel that are asked for: above 1 if the share is too small */
 } hearth_stream_counters;
 
 #define HEARTH_STREAM_COUNTERS_INIT                                                                          \
@@ -555,7 +555,8 @@ enum
     HEARTH_VIEW_GI = 18,             /* indirect light (GI) alone, on white surfaces */
     /* 1.8 */
     HEARTH_VIEW_LIGHT_COUNT = 19, /* lights that each pixel evaluates */
-    HEARTH_VIEW_LIGHT_CELLS = 20  /* cells of the light grid */
+    HEARTH_VIEW_LIGHT_CELLS = 20, /* cells of the light grid */
+    HEARTH_VIEW_RECEIVERS = 21    /* baked light in its texels, on white surfaces; violet: none */
 };
 
 /* Ambient occlusion of the sky, for packs with sky visibility (1.3). */
@@ -723,6 +724,22 @@ typedef struct hearth_emission_scale
     float factor; /* 0 or more */
 } hearth_emission_scale;
 
+/* Lamps that have weights (1.8). */
+enum
+{
+    HEARTH_LAMP_LIGHT = 1,   /* slot of a light, of the pack or the game */
+    HEARTH_LAMP_EMISSION = 2 /* instance that emits, of a pack with receivers */
+};
+
+/* Factor on all light of a lamp, live and baked, from this frame on until it is set anew (1.8). Names of lights
+ * and instances: hearth_pack_get_name. */
+typedef struct hearth_lamp_weight
+{
+    uint32_t lamp;   /* HEARTH_LAMP_* */
+    uint32_t index;  /* of the light's slot, or of the instance */
+    float weight[3]; /* red, green, blue: finite, 0 or more */
+} hearth_lamp_weight;
+
 enum
 {
     HEARTH_BLOOM_MIX = 0, /* the spread light replaces a share of the image, whose mean it keeps */
@@ -771,7 +788,10 @@ typedef struct hearth_frame
     uint32_t bloom_mode;          /* HEARTH_BLOOM_* */
     uint32_t
         light_method; /* HEARTH_LIGHTS_*; all but the first are prepared before: hearth_scene_prepare_lights */
-    uint32_t light_lists; /* HEARTH_LIGHT_LISTS_* */
+    uint32_t light_lists;                   /* HEARTH_LIGHT_LISTS_* */
+    const hearth_lamp_weight* lamp_weights; /* read while recording */
+    uint32_t lamp_weight_count;
+    uint32_t reserved; /* 0 */
 } hearth_frame;
 
 #define HEARTH_FRAME_INIT                                                                                    \
@@ -779,7 +799,8 @@ typedef struct hearth_frame
         sizeof(hearth_frame), HEARTH_CULL_EVERYTHING, {{0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 0.8f, 0.01f}, 1,    \
             NULL, 0, 0, NULL, HEARTH_VIEW_FINAL, 1, HEARTH_SHADE_AUTOMATIC, 0, NULL, VK_NULL_HANDLE, NULL,   \
             0, HEARTH_AMBIENT_OCCLUSION_EXACT, HEARTH_SPECULAR_OCCLUSION_FIT, 0, NULL, NULL, 0, 0, 0, 0, 0,  \
-            0.18f, 1, 0, {1, 1, 1}, 0, 0, HEARTH_BLOOM_MIX, HEARTH_LIGHTS_PRACTICAL, HEARTH_LIGHT_LISTS_GPU  \
+            0.18f, 1, 0, {1, 1, 1}, 0, 0, HEARTH_BLOOM_MIX, HEARTH_LIGHTS_PRACTICAL, HEARTH_LIGHT_LISTS_GPU, \
+            NULL, 0, 0                                                                                       \
     }
 
 /* ---- Tables of a pack (1.6), on any thread ----

@@ -43,6 +43,27 @@ Status makeLights(hearth_scene& scene, const hearth_frame& frame)
     return success();
 }
 
+Status makeLampWeights(hearth_scene& scene, const hearth_frame& frame)
+{
+    if (frame.lamp_weight_count > 0 && frame.lamp_weights == nullptr)
+        return usage("lamp_weights is NULL");
+    scene.lamp_weights.clear();
+    for (uint32_t i = 0; i < frame.lamp_weight_count; ++i)
+    {
+        const hearth_lamp_weight& lamp = frame.lamp_weights[i];
+        if (lamp.lamp != HEARTH_LAMP_LIGHT && lamp.lamp != HEARTH_LAMP_EMISSION)
+            return usage("lamp weight " + std::to_string(i) +
+                         " is of a lamp that this version does not know");
+        const Float3 weight{lamp.weight[0], lamp.weight[1], lamp.weight[2]};
+        HEARTH_ASSIGN_OR_RETURN(const gpu::LampWeight made,
+                                lamp.lamp == HEARTH_LAMP_LIGHT
+                                    ? gpu::weighLight(*scene.scene, lamp.index, weight)
+                                    : gpu::weighEmission(*scene.scene, lamp.index, weight));
+        scene.lamp_weights.push_back(made);
+    }
+    return success();
+}
+
 Status makeEmissions(hearth_scene& scene, const hearth_frame& frame)
 {
     if (frame.emission_count > 0 && frame.emissions == nullptr)

@@ -42,6 +42,9 @@ static_assert(HEARTH_LIGHT_SUN == shared::kLightDirectional + 1);
 static_assert(HEARTH_LIGHT_POINT == shared::kLightPoint + 1);
 static_assert(HEARTH_LIGHT_SPOT == shared::kLightSpot + 1);
 
+static_assert(HEARTH_LAMP_LIGHT == static_cast<int>(formats::ReceiverLampKind::light));
+static_assert(HEARTH_LAMP_EMISSION == static_cast<int>(formats::ReceiverLampKind::mesh_light));
+
 constexpr bool equal(int c, gpu::LightMethod method)
 {
     return c == static_cast<int>(method);

@@ -256,9 +256,12 @@ Result<std::unique_ptr<Scene>> Renderer::upload(const formats::PackView& pack, V
         HEARTH_ASSIGN_OR_RETURN(brick_light_, BrickLightPass::create(device_, layouts_));
         HEARTH_ASSIGN_OR_RETURN(gather_, GatherPass::create(device_, layouts_));
     }
+    if (scene->receivers != nullptr)
+        HEARTH_TRY(createReceivers(pack, *scene));
     for (SceneMaterial& material : scene->materials)
     {
         material.variant.bricks = scene->bricks != nullptr ? 1 : 0;
+        material.variant.receivers = scene->receivers != nullptr ? 1 : 0;
         material.variant.shadows = scene->shadows != nullptr ? 1 : 0;
         material.variant.filters_shadows = scene->shadows != nullptr && scene->shadows->filters() ? 1 : 0;
     }
@@ -307,6 +310,28 @@ Status Renderer::createShadows(const formats::PackView& pack, const ShadowOption
     if (scene.deformation != nullptr)
         HEARTH_TRY(pass->prepareDeformed(device_));
     return pass->createMaps(device_, pack, options, depth, commands, scene);
+}
+
+/// Upload the atlas of a scene, and bind it.
+Status Renderer::createReceivers(const formats::PackView& pack, Scene& scene)
+{
+    if (!receivers_)
+    {
+        HEARTH_ASSIGN_OR_RETURN(receivers_, ReceiverPass::create(device_));
+    }
+    HEARTH_ASSIGN_OR_RETURN(scene.receivers->atlas,
+                            receivers_->upload(device_, pack.receivers(),
+                                               static_cast<uint32_t>(scene.frames.size()), *scene.staging));
+    scene.staging->finish();
+    const ReceiverAtlas& atlas = *scene.receivers->atlas;
+    forEachView(scene,
+                [&](const SceneView& view)
+                {
+                    DescriptorWriter(view.draw_set)
+                        .texture(shared::kSceneReceivers, atlas.colors.get(), atlas.sampler.get())
+                        .write(device_);
+                });
+    return success();
 }
 
 Status Renderer::prepareLightMethod(Scene& scene, LightMethod method)
@@ -391,7 +416,9 @@ void Renderer::recordCulled(VkCommandBuffer commands, const Scene& scene, FrameT
     trackShadows(scene, input.moves);
     passes.begin(FrameStep::update);
     WordCopies copies = recordFrameUpdate(device_, commands, scene, targets, copy_words_, view,
-                                          {input.moves, input.poses, input.lights});
+                                          {input.moves, input.poses, input.lights, input.lamp_weights});
+    if (scene.receivers != nullptr)
+        recordReceivers(commands, scene);
     recordLightLists(commands, scene, view, input.shading, passes);
     if (scene.bricks != nullptr)
         recordBrickLight(commands, scene, copies, input, passes);
@@ -545,6 +572,18 @@ void Renderer::recordShadowMap(VkCommandBuffer commands, const Scene& scene, con
     shadowPass(scene).recordMap(device_, commands, layouts_, scene, view, map);
 }
 
+/// Update the texels of baked light that are due, if any are. The table of the frame leaves out the atlas, so
+/// that no other frame waits for it.
+void Renderer::recordReceivers(VkCommandBuffer commands, const Scene& scene) const
+{
+    const uint32_t groups = scene.receivers->beginUpdate();
+    if (groups == 0)
+        return;
+    const DebugLabel label(device_, commands, "update receivers");
+    receivers_->record(device_, commands, *scene.receivers->atlas, scene.tables->frame,
+                       scene.receivers->weights(), groups);
+}
+
 /// Update a share of the brick faces, if the frame shows their light.
 void Renderer::recordBrickLight(VkCommandBuffer commands, const Scene& scene, WordCopies& copies,
                                 const FrameInput& input, PassRecorder& passes) const
@@ -554,8 +593,8 @@ void Renderer::recordBrickLight(VkCommandBuffer commands, const Scene& scene, Wo
     {
         const DebugLabel label(device_, commands, "light bricks");
         passes.begin(FrameStep::brick_light);
-        brick_light_->record(device_, commands, scene, copy_words_, copies, !input.lights.empty(),
-                             input.emission);
+        brick_light_->record(device_, commands, scene, copy_words_, copies,
+                             !input.lights.empty() || !input.lamp_weights.empty(), input.emission);
     }
     scene.bricks->is_shown = is_shown;
 }

@@ -6,12 +6,12 @@
 
 #include "runtime/gpu/frame/frame_parts.h"
 #include "runtime/gpu/light_passes/add_lights_pass.h"
+#include "runtime/gpu/light_passes/light_lists_pass.h"
+#include "runtime/gpu/light_passes/mark_lights_pass.h"
 #include "runtime/gpu/passes/bin_pass.h"
 #include "runtime/gpu/passes/brick_light_pass.h"
 #include "runtime/gpu/passes/cull_pass.h"
 #include "runtime/gpu/passes/gather_pass.h"
-#include "runtime/gpu/light_passes/light_lists_pass.h"
-#include "runtime/gpu/light_passes/mark_lights_pass.h"
 #include "runtime/gpu/passes/material_marks_pass.h"
 #include "runtime/gpu/passes/material_tiles_pass.h"
 #include "runtime/gpu/passes/page_request_pass.h"
@@ -22,6 +22,7 @@
 #include "runtime/gpu/passes/skinning_pass.h"
 #include "runtime/gpu/passes/word_copy_pass.h"
 #include "runtime/gpu/post/post_pass.h"
+#include "runtime/gpu/receivers/receiver_pass.h"
 #include "runtime/gpu/scene/instance_motion.h"
 #include "runtime/gpu/scene/light_change.h"
 
@@ -64,6 +65,8 @@ struct FrameInput
     std::span<const ShadowSphere> shadow_spheres{};
     /// Valid from this frame on; read while recording.
     std::span<const LightChange> lights{};
+    /// Weights of lamps, which stay until they are set anew. Valid from this frame on; read while recording.
+    std::span<const LampWeight> lamp_weights{};
     /// Emission scales of brick faces for a scene with bricks. All scales of this frame; read while
     /// recording.
     std::span<const EmissionScale> emission{};
@@ -201,6 +204,8 @@ private:
                        PassRecorder& passes) const;
     void recordShadowMap(VkCommandBuffer commands, const Scene& scene, const SceneView& view,
                          const ShadowCache::LayerUpdate& map, PassRecorder& passes) const;
+    Status createReceivers(const formats::PackView& pack, Scene& scene);
+    void recordReceivers(VkCommandBuffer commands, const Scene& scene) const;
     void recordBrickLight(VkCommandBuffer commands, const Scene& scene, WordCopies& copies,
                           const FrameInput& input, PassRecorder& passes) const;
     const FramePlan& plan(const Scene& scene, const FrameTargets& targets, const FrameInput& input,
@@ -233,6 +238,7 @@ private:
     std::optional<ShadowPass> shadows_[2];      ///< by ShadowDepth; set once a scene has such shadows
     std::optional<BrickLightPass> brick_light_; ///< set once a scene has bricks
     std::optional<GatherPass> gather_;          ///< set once a scene has bricks
+    std::optional<ReceiverPass> receivers_;     ///< set once a scene has receivers
     std::optional<SkinningPass> skinning_;      ///< set once a scene has deformed meshes
     MaterialTilesPass material_tiles_;
     /// [ShadedOutput]; set once a scene has a light method with it.

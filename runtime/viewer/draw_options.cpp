@@ -41,6 +41,9 @@ constexpr std::string_view kDrawHelp =
     "                          as --lights prepass, classic-prepass, encoded-prepass; hearth-render prints "
     "how far\n"
     "                          the images of the last two are off\n"
+    "      --light NAME=SCALE  a light by its name, SCALE times as bright: a number, or R,G,B; its baked "
+    "light too,\n"
+    "                          and that of a mesh that emits; may be given several times\n"
     "      --light-lists gpu|cpu\n"
     "                          which processor lists the lights of cells, default gpu; the lists are the "
     "same\n"
@@ -393,6 +396,7 @@ void addDrawOptions(CommandLine& command_line, DrawOptions& options)
                                                  settings.specular_occlusion);
                           });
     command_line.addValue("--gi", [&](std::string_view text) { return parseGi(text, settings); });
+    command_line.addValue("--light", [&](std::string_view text) { return parseLamp(text, options.lamps); });
     command_line.addValue("--lights",
                           [&](std::string_view text) {
                               return parseChoice("--lights", lightMethodNames(), text, settings.light_method);
@@ -454,6 +458,8 @@ Status checkPack(const DrawOptions& options, const formats::PackView& pack)
     if (shared::viewNeedsBricks(options.settings.view) && pack.brickGrid().empty())
         return Error{Issue::usage, pack.name(), "",
                      "--view: the pack has no bricks (hearth cook --bricks makes them)"};
+    if (options.settings.view == shared::kViewReceivers && pack.receiverAtlases().empty())
+        return Error{Issue::usage, pack.name(), "", "--view: the pack has no receivers of baked light"};
     return success();
 }
 

@@ -6,6 +6,7 @@
 #include "runtime/pack/pose_player.h"
 #include "runtime/viewer/command_line.h"
 #include "runtime/viewer/frame_settings.h"
+#include "runtime/viewer/lamp_options.h"
 #include "runtime/viewer/shadow_options.h"
 
 #include <optional>
@@ -24,7 +25,8 @@ struct DrawOptions
     std::optional<uint32_t> scene_camera; ///< index of a camera of the pack
     FrameSettings settings;               ///< checked
     ShadowSettings shadows;               ///< on by default
-    uint64_t memory_budget = 0;         ///< bytes; 0: all geometry is resident
+    std::vector<LampSetting> lamps;
+    uint64_t memory_budget = 0; ///< bytes; 0: all geometry is resident
     std::string device;
     bool validate = false;
     bool verbose = false;

@@ -3,6 +3,7 @@
 
 #include "formats/base/assert.h"
 #include "formats/gpu_shared/occluder_light.h"
+#include "formats/gpu_shared/receivers/receiver_rows.h"
 #include "formats/gpu_shared/shadow.h"
 
 #include <algorithm>
@@ -52,12 +53,14 @@ void writeSkyImage(const shared::SkyImage& image, std::span<std::byte> rows)
 
 } // namespace
 
-LightBufferLayout LightBufferLayout::make(uint32_t capacity, bool has_sky_image, uint64_t surroundings_rows)
+LightBufferLayout LightBufferLayout::make(uint32_t capacity, bool has_sky_image, uint64_t surroundings_rows,
+                                          uint64_t receiver_rows)
 {
     LightBufferLayout layout{.capacity = capacity, .index_words = indexWords(capacity)};
     layout.sky_image = layout.light(capacity);
     layout.surroundings = layout.sky_image + (has_sky_image ? shared::kSkyImageRows : 0) * kRowBytes;
-    layout.lists = layout.surroundings + surroundings_rows * kRowBytes;
+    layout.receivers = layout.surroundings + surroundings_rows * kRowBytes;
+    layout.lists = layout.receivers + receiver_rows * kRowBytes;
     layout.cells = layout.lists + sizeof(shared::LightListCounts) + VkDeviceSize{capacity} * sizeof(uint32_t);
     layout.indices = layout.cells + VkDeviceSize{shared::kMaxLightCells} * sizeof(uint32_t);
     layout.in_view = layout.indices + VkDeviceSize{layout.index_words} * sizeof(uint32_t);
@@ -70,6 +73,9 @@ SceneLights::SceneLights(const LightBufferLayout& layout, shared::SceneLighting 
     : layout_(layout), lighting_(std::move(lighting)), loaded_(lighting_.lights)
 {
     HEARTH_ASSERT(lighting_.lights.size() <= layout_.capacity);
+    for (const shared::Light& light : loaded_)
+        slots_.push_back(
+            {.intensity = light.intensity, .steady_luminance = shared::luminance(light.intensity)});
     head_.sky_zenith = lighting_.sky.zenith;
     head_.sky_horizon = lighting_.sky.horizon;
     head_.sky_ground = lighting_.sky.ground;
@@ -87,34 +93,99 @@ SceneLights::SceneLights(const LightBufferLayout& layout, shared::SceneLighting 
 }
 
 void SceneLights::fill(MirroredTable& table, std::span<const std::byte> surroundings, uint64_t transfer_rows,
-                       bool has_surroundings)
+                       bool has_surroundings, std::span<const std::byte> receivers)
 {
     head_.transfers_row = static_cast<uint32_t>(layout_.surroundings / kRowBytes);
     head_.surroundings_row = has_surroundings ? head_.transfers_row + static_cast<uint32_t>(transfer_rows)
                                               : shared::kNoSurroundings;
     std::vector<std::byte> bytes(static_cast<size_t>(layout_.lists));
     std::memcpy(bytes.data(), &head_, sizeof(head_));
-    std::memcpy(bytes.data() + layout_.light(0), lighting_.lights.data(),
-                lighting_.lights.size() * sizeof(shared::Light));
+    for (uint32_t slot = 0; slot < lighting_.lights.size(); ++slot)
+    {
+        const shared::Light light = sharedLight(slot);
+        std::memcpy(bytes.data() + layout_.light(slot), &light, sizeof(light));
+    }
     if (const shared::SkyImage* image = lighting_.sky.image; image != nullptr)
         writeSkyImage(*image, std::span(bytes).subspan(static_cast<size_t>(layout_.sky_image)));
     if (!surroundings.empty())
         std::memcpy(bytes.data() + layout_.surroundings, surroundings.data(), surroundings.size());
+    if (!receivers.empty())
+        std::memcpy(bytes.data() + layout_.receivers, receivers.data(), receivers.size());
     table.fill(bytes);
 }
 
-void SceneLights::set(MirroredTable& table, uint32_t slot, const shared::Light& light)
+void SceneLights::setAtlas(const formats::ReceiverAtlasRecord& atlas)
+{
+    head_.receivers_row = static_cast<uint32_t>(layout_.receivers / kRowBytes);
+    head_.receiver_scale = atlas.scale;
+    head_.receiver_width = static_cast<float>(atlas.width);
+    head_.receiver_height = static_cast<float>(atlas.height);
+}
+
+/// Make sure that a slot below the capacity is in use.
+void SceneLights::reserveSlot(uint32_t slot)
 {
     HEARTH_ASSERT(slot < layout_.capacity);
+    if (slot < lighting_.lights.size())
+        return;
     shared::Light unused{};
     unused.shadow_row = shared::kNoShadow;
-    if (slot >= lighting_.lights.size())
-        lighting_.lights.resize(slot + 1, unused);
+    lighting_.lights.resize(slot + 1, unused);
+    slots_.resize(slot + 1);
+}
+
+shared::Light SceneLights::sharedLight(size_t slot) const
+{
+    shared::Light light = lighting_.lights[slot];
+    if (slots_[slot].is_baked)
+        light.reflector_axis |= shared::kLightBaked;
+    return light;
+}
+
+void SceneLights::writeLight(MirroredTable& table, uint32_t slot)
+{
+    lighting_.lights[slot].intensity = slots_[slot].intensity * slots_[slot].weight;
+    const shared::Light light = sharedLight(slot);
+    table.write(layout_.light(slot), std::as_bytes(std::span(&light, 1)));
+}
+
+void SceneLights::set(MirroredTable& table, uint32_t slot, const shared::Light& light, float steady_luminance)
+{
+    reserveSlot(slot);
     shared::Light& current = lighting_.lights[slot];
     const uint32_t row = current.shadow_row;
     current = light;
     current.shadow_row = row;
-    table.write(layout_.light(slot), std::as_bytes(std::span(&current, 1)));
+    slots_[slot].intensity = light.intensity;
+    slots_[slot].steady_luminance = steady_luminance;
+    writeLight(table, slot);
+}
+
+void SceneLights::setWeight(MirroredTable& table, uint32_t slot, Float3 weight)
+{
+    reserveSlot(slot);
+    slots_[slot].weight = weight;
+    writeLight(table, slot);
+}
+
+void SceneLights::setBaked(MirroredTable& table, uint32_t slot, bool is_baked)
+{
+    HEARTH_ASSERT(slot < slots_.size());
+    if (slots_[slot].is_baked == is_baked)
+        return;
+    slots_[slot].is_baked = is_baked;
+    writeLight(table, slot);
+}
+
+float SceneLights::steadyLuminance(uint32_t slot) const
+{
+    const Slot& held = slots_[slot];
+    if (held.weight == Float3{1, 1, 1})
+        return held.steady_luminance;
+    // the colour of a light without flicker is that with it
+    const float luminance = shared::luminance(held.intensity);
+    const float weighed = shared::luminance(held.intensity * held.weight);
+    return held.steady_luminance * (luminance > 0 ? weighed / luminance : shared::luminance(held.weight));
 }
 
 void SceneLights::setShadowRow(MirroredTable& table, uint32_t slot, uint32_t row)

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "formats/records/receivers.h"
 #include "formats/scene/scene_lighting.h"
 #include "runtime/frame/light_lists.h"
 #include "runtime/gpu/lights/light_method.h"
@@ -28,14 +29,16 @@ struct LightBufferLayout
     uint32_t index_words = 0; ///< room for indices
     VkDeviceSize sky_image = 0;
     VkDeviceSize surroundings = 0;
-    VkDeviceSize lists = 0; ///< the parts before it are the table, those after it are the frame's
-    VkDeviceSize cells = 0; ///< words of all lists, whatever has them
+    VkDeviceSize receivers = 0; ///< shared::ReceiverRow of each instance; none in scenes without receivers
+    VkDeviceSize lists = 0;     ///< the parts before it are the table, those after it are the frame's
+    VkDeviceSize cells = 0;     ///< words of all lists, whatever has them
     VkDeviceSize indices = 0;
     VkDeviceSize in_view = 0; ///< shared::CellLight of the ranged lights of the frame; passes of the device
     VkDeviceSize end = 0;
 
-    /// surroundings_rows  of 16 bytes
-    static LightBufferLayout make(uint32_t capacity, bool has_sky_image, uint64_t surroundings_rows);
+    /// surroundings_rows  of 16 bytes, as receiver_rows
+    static LightBufferLayout make(uint32_t capacity, bool has_sky_image, uint64_t surroundings_rows,
+                                  uint64_t receiver_rows = 0);
     VkDeviceSize light(uint32_t slot) const
     {
         return sizeof(shared::Lighting) + VkDeviceSize{slot} * sizeof(shared::Light);
@@ -55,13 +58,27 @@ public:
     /// Lights of the pack as loaded, in the first slots.
     std::span<const shared::Light> loaded() const { return loaded_; }
 
-    /// Set the content of the table, with the rows of the sky's image and of surroundings behind the lights.
+    /// Set the content of the table, with the rows of the sky's image, of surroundings and of receivers
+    /// behind the lights.
     /// transfer_rows  of `surroundings`, before those of instances; all of them if the scene has none
     void fill(MirroredTable& table, std::span<const std::byte> surroundings, uint64_t transfer_rows,
-              bool has_surroundings);
+              bool has_surroundings, std::span<const std::byte> receivers = {});
 
-    /// Replace the light of a slot below the capacity. It keeps the slot's shadow row.
-    void set(MirroredTable& table, uint32_t slot, const shared::Light& light);
+    /// Describe the atlas of receivers to shaders, before `fill`.
+    void setAtlas(const formats::ReceiverAtlasRecord& atlas);
+
+    /// Replace the light of a slot below the capacity. It keeps the slot's shadow row and its weight.
+    /// steady_luminance  of its intensity without flicker
+    void set(MirroredTable& table, uint32_t slot, const shared::Light& light, float steady_luminance);
+
+    /// Set the weight of a slot, by which its light is multiplied; 1 until then.
+    void setWeight(MirroredTable& table, uint32_t slot, Float3 weight);
+
+    /// Say whether the atlas of receivers has the light of a slot in use (shared::kLightBaked).
+    void setBaked(MirroredTable& table, uint32_t slot, bool is_baked);
+
+    /// Luminance of a slot's intensity without flicker, under its weight.
+    float steadyLuminance(uint32_t slot) const;
 
     /// Set the shadow row of a slot in use.
     void setShadowRow(MirroredTable& table, uint32_t slot, uint32_t row);
@@ -86,11 +103,25 @@ public:
     uint32_t listCount() const { return head_.list_count; }
 
 private:
+    /// Facts about a slot beside its light as it shines.
+    struct Slot
+    {
+        Float3 intensity; ///< with weight 1
+        float steady_luminance;
+        Float3 weight{1, 1, 1};
+        bool is_baked = false;
+    };
+    void reserveSlot(uint32_t slot);
+    /// Weigh the intensity of a slot, and write its light.
+    void writeLight(MirroredTable& table, uint32_t slot);
+    /// Light of a slot as shaders see it.
+    shared::Light sharedLight(size_t slot) const;
     shared::LightListView listView(const Buffer& buffer) const;
 
     LightBufferLayout layout_;
     shared::SceneLighting lighting_;
     std::vector<shared::Light> loaded_;
+    std::vector<Slot> slots_; ///< [lights().size()]
     shared::Lighting head_{};
     shared::LightLists lists_;
 };

@@ -62,7 +62,7 @@ WordCopies recordFrameUpdate(const Device& device, VkCommandBuffer commands, con
 {
     takeMoves(scene, changes.moves);
     takePoses(scene, changes.poses);
-    takeLights(scene, changes.lights);
+    takeLights(scene, changes.lights, changes.lamp_weights);
     if (scene.shadows != nullptr && changes.draws)
         scene.shadows->chooseLights(view, *scene.lights, scene.tables->lighting);
     const SceneFrame& frame = beginSceneFrame(scene);

@@ -120,6 +120,7 @@ DrawConstants ShadingPass::drawConstants(const ShadingVariant& variant, bool res
     constants[shared::kConstantSkyVisibility] = variant.sky_visibility;
     constants[shared::kConstantLayers] = variant.layers;
     constants[shared::kConstantLightList] = variant.light_list;
+    constants[shared::kConstantReceivers] = variant.receivers;
     return constants;
 }
 

@@ -42,8 +42,8 @@ ShadingBindings shadingBindings(const ShadingDescriptors& descriptors)
         uniformBinding(shared::kSceneShadows, kVertexStage | kFragmentStage),
         textureBinding(shared::kSceneShadowMaps, kFragmentStage),
         textureBinding(shared::kSceneSpecularTable, kFragmentStage),
-        textureBinding(shared::kSceneReflectance, kFragmentStage),
-        textureBinding(shared::kSceneSkyTable, kFragmentStage),
+        textureBinding(shared::kSceneShadingTables, kFragmentStage),
+        textureBinding(shared::kSceneReceivers, kFragmentStage),
         textureBinding(shared::kSceneSkyCube, kFragmentStage),
     };
     for (uint32_t slice = 0; slice < shared::kPoolSlices; ++slice)
@@ -73,7 +73,7 @@ std::vector<SetBinding> litBindings(VkDescriptorType image)
             storageBinding(shared::kSceneLighting, kVertexStage | kFragmentStage),
             uniformBinding(shared::kSceneShadows, kFragmentStage),
             textureBinding(shared::kSceneShadowMaps, kFragmentStage),
-            textureBinding(shared::kSceneReflectance, kFragmentStage),
+            textureBinding(shared::kSceneShadingTables, kFragmentStage),
             {shared::kAttachmentSurfaces, image, kFragmentStage},
             {shared::kAttachmentDepth, VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT, kFragmentStage}};
 }

@@ -22,6 +22,14 @@ bool isFinite(const Affine3& t)
     return true;
 }
 
+/// True if a move leads to where the instance was at loading.
+bool isAtRest(const Scene& scene, const InstanceMove& move)
+{
+    const Affine3& at_rest = scene.instances[move.instance].world_from_object;
+    static_assert(sizeof(at_rest) == 3 * sizeof(Float4));
+    return std::memcmp(&move.record.world_from_object_x, &at_rest, sizeof(at_rest)) == 0;
+}
+
 } // namespace
 
 Result<InstanceMove> moveInstance(const Scene& scene, uint32_t instance, const Affine3& world_from_object)
@@ -54,6 +62,9 @@ void takeMoves(const Scene& scene, std::span<const InstanceMove> moves)
     {
         scene.tables->instances.writeRow(move.instance, move.record);
         scene.tables->inverses.writeRow(move.instance, move.inverse);
+        if (scene.receivers != nullptr)
+            writeReceiverRow(scene, move.instance,
+                             scene.receivers->takeMove(move.instance, isAtRest(scene, move)));
     }
 }
 

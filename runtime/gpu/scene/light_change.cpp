@@ -25,6 +25,24 @@ bool isFinite(const formats::LightRecord& record)
            std::isfinite(record.inner_cone_rad) && std::isfinite(record.outer_cone_rad);
 }
 
+bool isWeight(Float3 weight)
+{
+    return std::isfinite(weight.x) && std::isfinite(weight.y) && std::isfinite(weight.z) && weight.x >= 0 &&
+           weight.y >= 0 && weight.z >= 0;
+}
+
+/// Bring everything that depends on a light up to date.
+void followLight(const Scene& scene, uint32_t slot)
+{
+    const shared::Light& light = scene.lights->lights()[slot];
+    if (scene.shadows != nullptr)
+        scene.shadows->change(slot, scene.lights->steadyLuminance(slot));
+    if (scene.surroundings != nullptr)
+        scene.surroundings->change(slot, light);
+    if (scene.receivers != nullptr)
+        scene.lights->setBaked(scene.tables->lighting, slot, scene.receivers->takeLight(slot, light));
+}
+
 } // namespace
 
 Result<LightChange> changeLight(const Scene& scene, uint32_t light, const formats::LightRecord& record,
@@ -52,18 +70,53 @@ Result<LightChange> changeLight(const Scene& scene, uint32_t light, const format
     return change;
 }
 
-void takeLights(const Scene& scene, std::span<const LightChange> lights)
+Result<LampWeight> weighLight(const Scene& scene, uint32_t light, Float3 weight)
 {
+    const auto fail = [&](const std::string& detail) {
+        return Error{Issue::usage, "", "light " + std::to_string(light), detail};
+    };
+    if (light >= scene.lights->layout().capacity)
+        return fail("there is room for " + std::to_string(scene.lights->layout().capacity) + " (max_lights)");
+    if (!isWeight(weight))
+        return fail("its weight is negative or not finite");
+    return LampWeight{formats::ReceiverLampKind::light, light, weight};
+}
+
+Result<LampWeight> weighEmission(const Scene& scene, uint32_t instance, Float3 weight)
+{
+    const auto fail = [&](const std::string& detail) {
+        return Error{Issue::usage, "", "instance " + std::to_string(instance), detail};
+    };
+    if (instance >= scene.instances.size())
+        return fail("there are " + std::to_string(scene.instances.size()));
+    if (scene.receivers == nullptr)
+        return fail("its pack has no receivers, so emission has no weight");
+    if (!isWeight(weight))
+        return fail("its weight is negative or not finite");
+    return LampWeight{formats::ReceiverLampKind::mesh_light, instance, weight};
+}
+
+void takeLights(const Scene& scene, std::span<const LightChange> lights, std::span<const LampWeight> weights)
+{
+    MirroredTable& table = scene.tables->lighting;
     for (const LightChange& change : lights)
     {
-        scene.lights->set(scene.tables->lighting, change.light, change.record);
-        if (scene.shadows != nullptr)
-            scene.shadows->change(change.light, change.steady_luminance);
-        if (scene.surroundings != nullptr)
-            scene.surroundings->change(change.light, change.record);
+        scene.lights->set(table, change.light, change.record, change.steady_luminance);
+        followLight(scene, change.light);
+    }
+    for (const LampWeight& weight : weights)
+    {
+        if (weight.kind == formats::ReceiverLampKind::light)
+        {
+            scene.lights->setWeight(table, weight.index, weight.weight);
+            followLight(scene, weight.index);
+        }
+        else if (scene.receivers != nullptr)
+            writeReceiverRow(scene, weight.index,
+                             scene.receivers->weighEmission(weight.index, weight.weight));
     }
     if (scene.surroundings != nullptr)
-        scene.surroundings->update(scene.tables->lighting, scene.lights->layout().surroundings);
+        scene.surroundings->update(table, scene.lights->layout().surroundings);
 }
 
 } // namespace hearth::gpu

@@ -1,4 +1,4 @@
-// Moving and changing lights: new rows for the table on the device.
+// Moving, changing and weighing lights: new rows for the tables on the device.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -20,13 +20,36 @@ struct LightChange
 
 /// Compute the table row of a slot below SceneOptions::max_lights: one of the pack's lights, or a new one.
 /// The exposure of the scene stays. A light of intensity 0 is off, which also frees a slot. A lamp that
-/// moves loses the light that its shade gives back, until it is where it was. errors: usage.
+/// moves loses the light that its shade gives back, and what receivers have of it, until it is where it was.
+/// errors: usage.
 ///
 /// steady_intensity  without flicker, which ranks the light for shadow maps; none: the record's
 Result<LightChange> changeLight(const Scene& scene, uint32_t light, const formats::LightRecord& record,
                                 std::optional<float> steady_intensity = std::nullopt);
 
-/// Write changes to the table of lights, to shadows and to what the lights' surroundings give back.
-void takeLights(const Scene& scene, std::span<const LightChange> lights);
+/// Weight of a lamp, by which all of its light is multiplied: on surfaces, in bricks, and in the atlas of
+/// receivers, bounced light included.
+struct LampWeight
+{
+    formats::ReceiverLampKind kind = formats::ReceiverLampKind::light;
+    uint32_t index = 0; ///< slot of a light, or instance that emits
+    Float3 weight{1, 1, 1};
+};
+
+/// Weigh the light of a slot below SceneOptions::max_lights, of the pack or the game's. The weight stays with
+/// the slot, whatever else changes its light.
+/// weight  of red, green and blue: finite and at least 0
+/// errors: usage.
+Result<LampWeight> weighLight(const Scene& scene, uint32_t light, Float3 weight);
+
+/// Weigh the emission of an instance, of a scene with receivers: what it shows itself, and the light that the
+/// atlas has of it. Bricks have emission scales of their own (EmissionScale).
+/// weight  as for a light
+/// errors: usage.
+Result<LampWeight> weighEmission(const Scene& scene, uint32_t instance, Float3 weight);
+
+/// Write changes and weights to the table of lights, to shadows, to receivers and to what the lights'
+/// surroundings give back.
+void takeLights(const Scene& scene, std::span<const LightChange> lights, std::span<const LampWeight> weights);
 
 } // namespace hearth::gpu

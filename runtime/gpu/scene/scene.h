@@ -6,6 +6,7 @@
 #include "formats/gpu_shared/shading.h"
 #include "runtime/gpu/lights/light_method.h"
 #include "runtime/gpu/lights/scene_lights.h"
+#include "runtime/gpu/receivers/scene_receivers.h"
 #include "runtime/gpu/scene/draw_layouts.h"
 #include "runtime/gpu/scene/joined_sets.h"
 #include "runtime/gpu/scene/pool_buffers.h"
@@ -95,6 +96,7 @@ struct ShadingVariant
     uint32_t filters_shadows = 0; ///< 1: the device filters their format
     uint32_t sky_visibility = 0;  ///< 1: used by meshes with sky visibility
     uint32_t bricks = 0;          ///< 1: the scene has bricks
+    uint32_t receivers = 0;       ///< 1: the scene has receivers
     uint32_t light_list = shared::kLightListCells;
     friend auto operator<=>(const ShadingVariant&, const ShadingVariant&) = default;
 };
@@ -155,6 +157,7 @@ struct Scene
     std::unique_ptr<SceneShadows> shadows;           ///< scenes with shadows only
     std::unique_ptr<SceneBricks> bricks;             ///< scenes with bricks only
     std::unique_ptr<SceneSurroundings> surroundings; ///< scenes with baked surroundings only
+    std::unique_ptr<SceneReceivers> receivers;       ///< scenes with receivers only
     std::vector<SceneBin> bins;
     std::vector<formats::InstanceRecord> instances; ///< as loaded
     uint32_t instance_count = 0;
@@ -162,8 +165,7 @@ struct Scene
     uint32_t group_item_count = 0; ///< streamed scenes only
     uint32_t slot_capacity = 0;
     uint32_t used_slices = shared::kPoolSlices; ///< 1 if the first slice holds all geometry
-    Image reflectance_table;                    ///< of formats/gpu_shared/reflectance.h
-    Image sky_table;                            ///< of formats/gpu_shared/sky.h
+    Image shading_tables;                       ///< formats/gpu_shared/reflectance.h has their places
     Image sky_cube;                             ///< black if the sky has no image
     Image specular_table;                       ///< empty if the pack has none
     uint32_t specular_spacing = 0;              ///< shared::kSpecularSpacing* of the table
@@ -196,6 +198,13 @@ void forEachView(Scene& scene, const Function& function)
         for (SceneView& view : frame.casters)
             function(view);
     }
+}
+
+/// Write the row of an instance, of a scene with receivers, to the buffer of lights.
+inline void writeReceiverRow(const Scene& scene, uint32_t instance, const shared::ReceiverRow& row)
+{
+    scene.tables->lighting.write(scene.lights->layout().receivers + instance * VkDeviceSize{sizeof(row)},
+                                 std::as_bytes(std::span(&row, 1)));
 }
 
 /// Number of work items of rigid instances, which come first.

@@ -227,8 +227,18 @@ Status uploadTables(const formats::PackView& pack, const SceneLayout& layout, Up
         scene.surroundings = std::make_unique<SceneSurroundings>(pack, makeLighting(pack));
         rows = scene.surroundings->makeRows();
     }
+    std::span<const std::byte> receivers;
+    if (!pack.receiverAtlases().empty())
+    {
+        scene.receivers = std::make_unique<SceneReceivers>(pack, scene.lights->loaded());
+        receivers = std::as_bytes(scene.receivers->rows());
+        scene.lights->setAtlas(pack.receivers().atlas);
+    }
     scene.lights->fill(tables.lighting, std::as_bytes(std::span(rows)),
-                       SceneSurroundings::countTransferRows(pack), !rows.empty());
+                       SceneSurroundings::countTransferRows(pack), !rows.empty(), receivers);
+    for (uint32_t slot = 0; slot < scene.lights->loaded().size() && scene.receivers != nullptr; ++slot)
+        scene.lights->setBaked(tables.lighting, slot,
+                               scene.receivers->takeLight(slot, scene.lights->loaded()[slot]));
     return success();
 }
 
@@ -285,7 +295,7 @@ Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene
     const uint32_t views = frames * (1 + static_cast<uint32_t>(scene.frames.front().casters.size()));
     const DescriptorPoolSizes sizes{.uniforms = 6 * views + 9 * frames + 2 * material_sets,
                                     .storages = 56 * views + 71 * frames + 2,
-                                    .textures = material_sets * shared::kTextureCount + 4 * views};
+                                    .textures = material_sets * shared::kTextureCount + 5 * views};
     HEARTH_ASSIGN_OR_RETURN(scene.pool,
                             createDescriptorPool(device, 9 * views + 14 * frames + 1 + material_sets, sizes));
     for (uint32_t number = 0; number < frames; ++number)
@@ -396,7 +406,7 @@ void storeDeformation(const formats::PackView& pack, DeformationLayout layout, S
     deformation.layout.words = {};
 }
 
-/// Bind placeholders. In scenes without shadows or table no shader reads their bindings, but lavapipe (Mesa
+/// Bind placeholders. In scenes without shadows, table or receivers no shader reads their bindings, but lavapipe (Mesa
 /// 22.3) reads the descriptors, so they must be valid.
 void fillSpareBindings(const Device& device, Scene& scene)
 {
@@ -408,6 +418,8 @@ void fillSpareBindings(const Device& device, Scene& scene)
                         .texture(shared::kSceneShadowMaps, scene.images.back().view.get(),
                                  scene.samplers.front().get())
                         .texture(shared::kSceneSpecularTable, scene.images.back().view.get(),
+                                 scene.samplers.front().get())
+                        .texture(shared::kSceneReceivers, scene.images.back().view.get(),
                                  scene.samplers.front().get())
                         .write(device);
                 });
@@ -456,7 +468,8 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
     const auto slots = static_cast<uint32_t>(
         std::clamp<size_t>(options.max_lights, lighting.lights.size(), shared::kMaxLights));
     scene->lights = std::make_unique<SceneLights>(
-        LightBufferLayout::make(slots, lighting.sky.image != nullptr, SceneSurroundings::countRows(pack)),
+        LightBufferLayout::make(slots, lighting.sky.image != nullptr, SceneSurroundings::countRows(pack),
+                                pack.receiverAtlases().empty() ? 0 : pack.instances().size()),
         std::move(lighting));
     if (!layout.deformation.words.empty())
         scene->deformation = makeDeformation(device, options.deformation, layout, group_items.rigid_items);

@@ -6,6 +6,8 @@
 #include "runtime/gpu/scene/scene.h"
 #include "runtime/gpu/vulkan/sampler.h"
 
+#include <algorithm>
+
 namespace hearth::gpu
 {
 
@@ -15,6 +17,32 @@ namespace
 constexpr uint32_t kNodes = shared::kSpecularNodes;
 
 constexpr VkImageUsageFlags kTableUsage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+
+/// Copy a table into the image of all tables.
+void copyTable(std::span<const uint64_t> table, uint32_t columns, uint32_t column, uint32_t row,
+               std::vector<uint64_t>& texels)
+{
+    for (size_t from = 0; from < table.size(); from += columns)
+        std::copy_n(table.begin() + static_cast<std::ptrdiff_t>(from), columns,
+                    texels.begin() + static_cast<std::ptrdiff_t>(
+                                         (row + from / columns) * shared::kShadingTablesWidth + column));
+}
+
+/// Return the texels of shared::kSceneShadingTables, four halves each.
+std::vector<uint64_t> makeShadingTables()
+{
+    static_assert(shared::kSheenTableColumn >= shared::kReflectanceColumns &&
+                  shared::kSheenTableColumn + shared::kReflectanceColumns <= shared::kShadingTablesWidth);
+    static_assert(shared::kSkyTableRow >= shared::kReflectanceRows &&
+                  shared::kSkyTableRow + shared::kSkyTableAngles <= shared::kShadingTablesHeight &&
+                  shared::kSkyTableHeights <= shared::kShadingTablesWidth);
+    std::vector<uint64_t> texels(size_t{shared::kShadingTablesWidth} * shared::kShadingTablesHeight);
+    copyTable(shared::kReflectanceTable, shared::kReflectanceColumns, 0, 0, texels);
+    copyTable(shared::kSheenTable, shared::kReflectanceColumns, shared::kSheenTableColumn, 0, texels);
+    const std::vector<uint64_t> sky(shared::skyTable().begin(), shared::skyTable().end());
+    copyTable(sky, shared::kSkyTableHeights, 0, shared::kSkyTableRow, texels);
+    return texels;
+}
 
 /// Upload the pack's table of specular occlusion, if it has one.
 Status uploadSpecularTable(const Device& device, const formats::PackView& pack, VkSampler sampler,
@@ -82,26 +110,18 @@ Status uploadShadingTables(const Device& device, const formats::PackView& pack, 
     const VkSampler sampler = linear.get();
     scene.samplers.push_back(std::move(linear));
     HEARTH_ASSIGN_OR_RETURN(
-        scene.reflectance_table,
+        scene.shading_tables,
         scene.arena.createImage({.format = VK_FORMAT_R16G16B16A16_SFLOAT,
-                                 .extent = {shared::kReflectanceColumns, 2 * shared::kReflectanceRows},
+                                 .extent = {shared::kShadingTablesWidth, shared::kShadingTablesHeight},
                                  .usage = kTableUsage}));
-    std::vector<uint64_t> reflectance(shared::kReflectanceTable.begin(), shared::kReflectanceTable.end());
-    reflectance.insert(reflectance.end(), shared::kSheenTable.begin(), shared::kSheenTable.end());
-    HEARTH_TRY(uploader.upload(scene.reflectance_table, std::as_bytes(std::span(reflectance)),
-                               {.bytes = sizeof(uint64_t)}));
-    HEARTH_ASSIGN_OR_RETURN(scene.sky_table, scene.arena.createImage({.format = VK_FORMAT_R16G16_SFLOAT,
-                                                                      .extent = {shared::kSkyTableHeights,
-                                                                                 shared::kSkyTableAngles},
-                                                                      .usage = kTableUsage}));
-    HEARTH_TRY(uploader.upload(scene.sky_table, std::as_bytes(std::span(shared::skyTable())),
-                               {.bytes = sizeof(uint32_t)}));
+    const std::vector<uint64_t> tables = makeShadingTables();
+    HEARTH_TRY(
+        uploader.upload(scene.shading_tables, std::as_bytes(std::span(tables)), {.bytes = sizeof(uint64_t)}));
     forEachView(scene,
                 [&](const SceneView& view)
                 {
                     DescriptorWriter(view.draw_set)
-                        .texture(shared::kSceneReflectance, scene.reflectance_table.view.get(), sampler)
-                        .texture(shared::kSceneSkyTable, scene.sky_table.view.get(), sampler)
+                        .texture(shared::kSceneShadingTables, scene.shading_tables.view.get(), sampler)
                         .write(device);
                 });
     HEARTH_TRY(uploadSkyCube(device, pack, uploader, scene));

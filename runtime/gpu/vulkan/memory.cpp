@@ -76,7 +76,10 @@ Result<UniqueImage> createUnbound(const Device& device, const ImageDescription& 
     info.extent = {description.extent.width, description.extent.height, 1};
     info.mipLevels = description.mip_count;
     info.arrayLayers = countLayers(description);
-    info.flags = description.is_cube ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0;
+    if (description.is_cube)
+        info.flags |= VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT;
+    if (description.has_views)
+        info.flags |= VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT;
     info.samples = VK_SAMPLE_COUNT_1_BIT;
     info.tiling = VK_IMAGE_TILING_OPTIMAL;
     info.usage = description.usage;
@@ -89,6 +92,24 @@ Result<UniqueImage> createUnbound(const Device& device, const ImageDescription& 
 }
 
 } // namespace
+
+Result<UniqueImageView> createView(const Device& device, const Image& image, VkFormat format,
+                                   VkImageUsageFlags usage)
+{
+    const VkImageViewUsageCreateInfo usage_info{VK_STRUCTURE_TYPE_IMAGE_VIEW_USAGE_CREATE_INFO, nullptr,
+                                                usage};
+    VkImageViewCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
+    info.pNext = &usage_info; // the format may not support all usages of the image
+    info.image = image.handle.get();
+    info.viewType = VK_IMAGE_VIEW_TYPE_2D;
+    info.format = format;
+    info.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    VkImageView view;
+    HEARTH_TRY_VK(device.vk.vkCreateImageView(device.handle, &info, device.allocator, &view),
+                  "create an image view");
+    return UniqueImageView(device, view);
+}
 
 Result<VkDeviceSize> measureImage(const Device& device, const ImageDescription& description)
 {

@@ -38,6 +38,7 @@ struct ImageDescription
     VkImageAspectFlags aspect = VK_IMAGE_ASPECT_COLOR_BIT;
     uint32_t array_layers = 0;            ///< 0: not an array
     bool is_cube = false;                 ///< six square panels; not an array
+    bool has_views = false;               ///< createView makes views with other formats
     MemoryKind kind = MemoryKind::device; ///< or transient, with usage TRANSIENT_ATTACHMENT
     VkComponentMapping components{};      ///< of the view
 };
@@ -47,6 +48,13 @@ constexpr uint32_t countLayers(const ImageDescription& description)
 {
     return description.is_cube ? 6 : std::max(description.array_layers, 1u);
 }
+
+/// Create a view of an image with ImageDescription::has_views, of one mip and layer, in another format of as
+/// many bits.
+/// usage  of the view: some of the image's
+/// errors: device_failed.
+Result<UniqueImageView> createView(const Device& device, const Image& image, VkFormat format,
+                                   VkImageUsageFlags usage);
 
 /// Return the bytes that the device needs for an image. errors: device_failed.
 Result<VkDeviceSize> measureImage(const Device& device, const ImageDescription& description);

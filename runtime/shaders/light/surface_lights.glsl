@@ -21,6 +21,7 @@ struct PlacedSurface
     vec3 position; // relative to the eye
     vec3 flat_normal;
     float error;
+    bool receives; // as LitSurface
 };
 
 PlacedSurface placedSurface(LitSurface surface, vec3 position)
@@ -29,6 +30,7 @@ PlacedSurface placedSurface(LitSurface surface, vec3 position)
     placed.position = position;
     placed.flat_normal = surface.flat_normal;
     placed.error = surface.error;
+    placed.receives = surface.receives;
     placed.shading.roughness = surface.roughness;
     placed.shading.normal = surface.normal;
     placed.shading.to_eye = normalizeOr(-placed.position, surface.normal);
@@ -40,6 +42,8 @@ PlacedSurface placedSurface(LitSurface surface, vec3 position)
 
 vec3 lightRadiance(PlacedSurface surface, Light light)
 {
+    if (surface.receives && isBaked(light))
+        return vec3(0.0);
     vec3 to_light;
     vec3 irradiance = lightIrradiance(light, surface.position, to_light);
     float share = lightVisibility(light, surface.position, surface.flat_normal, surface.error);

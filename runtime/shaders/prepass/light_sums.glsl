@@ -20,6 +20,8 @@ layout(location = 2) out vec4 out_grazing;
 
 void addLight(inout LightSums sums, PlacedSurface surface, Light light)
 {
+    if (surface.receives && isBaked(light))
+        return;
     Shading s = surface.shading;
     vec3 to_light;
     vec3 irradiance = lightIrradiance(light, surface.position, to_light);

@@ -12,6 +12,7 @@ struct StoredNormal
     vec3 flat_normal;
     float roughness;
     float error;
+    bool receives;
 };
 
 #ifdef HEARTH_JOINED_SUMS
@@ -28,7 +29,8 @@ vec3 unpackDirection(vec2 point) { return octahedralDirection(point * 2.0 - 1.0)
 // depth  metres along the view, above 0
 vec4 packNormal(StoredNormal stored, float depth)
 {
-    return vec4(min(depth, 65504.0), packDirection(stored.normal), stored.roughness);
+    // roughness is above 0
+    return vec4(min(depth, 65504.0), packDirection(stored.normal), stored.receives ? -stored.roughness : stored.roughness);
 }
 
 bool isSurface(vec4 texel) { return texel.x > 0.0; }
@@ -36,12 +38,15 @@ bool isSurface(vec4 texel) { return texel.x > 0.0; }
 StoredNormal unpackNormal(vec4 texel)
 {
     vec3 normal = unpackDirection(texel.yz);
-    return StoredNormal(normal, normal, texel.w, 0.0);
+    return StoredNormal(normal, normal, abs(texel.w), 0.0, texel.w < 0.0);
 }
 #else
+// one of the four values of the last channel, whose 0 is no surface
+const float kReceiver = 1.0 / 3.0;
+
 vec4 packNormal(StoredNormal stored, float depth)
 {
-    return vec4(packDirection(stored.normal), stored.roughness, 1.0);
+    return vec4(packDirection(stored.normal), stored.roughness, stored.receives ? kReceiver : 1.0);
 }
 
 bool isSurface(vec4 texel) { return texel.w > 0.0; }
@@ -49,7 +54,7 @@ bool isSurface(vec4 texel) { return texel.w > 0.0; }
 StoredNormal unpackNormal(vec4 texel)
 {
     vec3 normal = unpackDirection(texel.xy);
-    return StoredNormal(normal, normal, texel.z, 0.0);
+    return StoredNormal(normal, normal, texel.z, 0.0, texel.w < 0.5);
 }
 #endif
 
@@ -60,7 +65,7 @@ StoredNormal unpackNormal(vec4 texel)
 
 const float kMinStoredRoughness = 0.045; // clampRoughness() returns no less
 const float kRoughnessCodes = 1022.0; // 1 to 1023: 0 is no surface
-const float kErrorsPerOctave = 8.0;
+const float kErrorsPerOctave = 4.0;
 const float kMinErrorExponent = -20.0;
 const float kAcrossCodes = 63.0;
 
@@ -76,12 +81,13 @@ float codedRoughness(uint code)
     return kMinStoredRoughness * pow(kMinStoredRoughness, -(float(code) - 1.0) / kRoughnessCodes);
 }
 
-// Errors grow by up to 9 %, and are a bound still: 8 bits from a thousandth of a millimetre to 3 km. 0: none.
+// Errors grow by up to 19 %, and are a bound still: 7 bits from a thousandth of a millimetre to 3 km.
+// 0: none.
 uint errorCode(float error)
 {
     if (error <= 0.0)
         return 0u;
-    return uint(clamp(ceil((log2(error) - kMinErrorExponent) * kErrorsPerOctave), 0.0, 254.0)) + 1u;
+    return uint(clamp(ceil((log2(error) - kMinErrorExponent) * kErrorsPerOctave), 0.0, 126.0)) + 1u;
 }
 
 float codedError(uint code)
@@ -113,8 +119,8 @@ uvec2 packNormal(StoredNormal stored, float depth)
 {
     uint normal = packSnorm2x16(octahedralPoint(stored.normal));
     uvec2 flat_normal = directionCode(stored.flat_normal, octahedralDirection(unpackSnorm2x16(normal)));
-    return uvec2(normal, roughnessCode(stored.roughness) | errorCode(stored.error) << 10 | flat_normal.x << 18 |
-                             flat_normal.y << 25);
+    return uvec2(normal, roughnessCode(stored.roughness) | errorCode(stored.error) << 10 |
+                             (stored.receives ? 1u << 17 : 0u) | flat_normal.x << 18 | flat_normal.y << 25);
 }
 
 bool isSurface(uvec2 texel) { return texel.y != 0u; }
@@ -124,7 +130,7 @@ StoredNormal unpackNormal(uvec2 texel)
     vec3 normal = octahedralDirection(unpackSnorm2x16(texel.x));
     vec3 flat_normal = codedDirection(uvec2(texel.y >> 18 & 127u, texel.y >> 25), normal);
     return StoredNormal(normal, flat_normal, codedRoughness(texel.y & 1023u),
-                        codedError(texel.y >> 10 & 255u));
+                        codedError(texel.y >> 10 & 127u), (texel.y >> 17 & 1u) != 0u);
 }
 
 #endif

@@ -11,6 +11,8 @@
 #include "runtime/shaders/scene/visibility_input.glsl"
 #include "runtime/shaders/scene/material_test.glsl"
 #include "runtime/shaders/prepass/normal_texel.glsl"
+#include "runtime/shaders/scene/light_block.glsl"
+#include "runtime/shaders/scene/receivers.glsl"
 
 layout(early_fragment_tests) in;
 layout(location = 0) out NormalTexel out_normal;
@@ -25,6 +27,7 @@ void main()
     SurfaceUvs uvs = surfaceUvs(s);
     vec4 metallic_roughness = sampleSurface(uvs, kTextureMetallicRoughness, metallic_roughness_texture);
     StoredNormal stored = StoredNormal(shadingNormal(point, uvs), point.flat_normal,
-                                       surfaceRoughness(metallic_roughness), point.error);
+                                       surfaceRoughness(metallic_roughness), point.error,
+                                       kReceivers && isReceiver(receiverRow(s.slot.instance), s));
     out_normal = packNormal(stored, dot(view.clip_w.xyz, point.position));
 }

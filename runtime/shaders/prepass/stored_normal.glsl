@@ -28,7 +28,8 @@ bool loadSurface(out PlacedSurface surface)
     float depth = loadDepth();
 #endif
     StoredNormal stored = unpackNormal(texel);
-    LitSurface lit = LitSurface(stored.normal, stored.flat_normal, vec3(0.0), 0.0, stored.roughness, stored.error);
+    LitSurface lit = LitSurface(stored.normal, stored.flat_normal, vec3(0.0), 0.0, stored.roughness, stored.error,
+                                stored.receives);
     surface = placedSurface(lit, pixelPosition(gl_FragCoord.xy, depth));
 #ifdef HEARTH_JOINED_SUMS
     // the most that the level of detail allows

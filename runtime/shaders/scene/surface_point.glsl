@@ -9,6 +9,15 @@ layout(constant_id = kConstantTextures) const uint kTextures = 0u;
 layout(constant_id = kConstantUvSets) const uint kUvSets = 0u;
 layout(constant_id = kConstantSkyVisibility) const bool kSkyVisibility = false;
 
+// Light of a point from the atlas of receivers (receivers.glsl).
+struct ReceivedLight
+{
+    bool is_known; // the diffuse light is that of the atlas, in place of baked lamps and of surroundings
+    mediump vec3 mean_radiance; // irradiance / pi
+    mediump vec3 emission_weight; // of the instance
+};
+const ReceivedLight kNoReceivedLight = ReceivedLight(false, vec3(0.0), vec3(1.0));
+
 struct SurfacePoint
 {
     vec3 position;  // relative to the eye
@@ -22,6 +31,7 @@ struct SurfacePoint
     VisibilityMoments sky; // sky visibility: world axes, towards the visible side
     uint instance;
     uint slot; // of the visible list
+    ReceivedLight received;
 };
 
 struct SurfaceUv

@@ -5,6 +5,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/reflectance.h"
+#include "runtime/shaders/shade/shading_tables.glsl"
 
 const float kPi = 3.14159265358979;
 
@@ -18,15 +19,13 @@ struct Shading
     float n_dot_v;
 };
 
-// texels (cosine, roughness): the values of LobeTotal; below them those of SheenTotal
-layout(set = kSetScene, binding = kSceneReflectance) uniform mediump sampler2D reflectance_table;
-
-// first  row of the first node of the table, plus one half
+// Texel (cosine, roughness) of a table: the values of LobeTotal or SheenTotal.
+// first  column of the first node of the table, plus one half
 mediump vec4 reflectanceTexel(mediump vec2 coordinates, float first)
 {
     const mediump vec2 nodes = vec2(kReflectanceColumns, kReflectanceRows);
-    vec2 at = (coordinates * (nodes - 1.0) + vec2(0.5, first)) / vec2(nodes.x, 2.0 * nodes.y);
-    return textureLod(reflectance_table, at, 0.0); // one mip
+    vec2 at = (coordinates * (nodes - 1.0) + vec2(first, 0.5)) / kShadingTablesSize;
+    return textureLod(shading_tables, at, 0.0); // one mip
 }
 
 LobeTotal lobeTotal(mediump float roughness, mediump float n_dot_v)

@@ -62,7 +62,7 @@ Layers surfaceLayers(SurfacePoint point, SurfaceUvs uvs, Shading s)
         mediump float roughness = material_layers.sheen_roughness;
         layers.sheen_color = color * sheen.rgb;
         layers.sheen_roughness = clampSheenRoughness(roughness * sheen.a);
-        mediump vec4 texel = reflectanceTexel(sheenCoordinates(layers.sheen_roughness, s.n_dot_v), 0.5 + float(kReflectanceRows));
+        mediump vec4 texel = reflectanceTexel(sheenCoordinates(layers.sheen_roughness, s.n_dot_v), 0.5 + float(kSheenTableColumn));
         layers.sheen = SheenTotal(texel.r, texel.g, texel.b);
     }
     if (hasLayer(kLayerClearcoat))

@@ -1,10 +1,14 @@
 // Light of a lamp or sun at a point, before shadows. Needs formats/gpu_shared/shading.h, `view` and
 // `reflectedShare`.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/receivers/receiver_rows.h"
 #include "formats/gpu_shared/record_values.h"
 
 // Intensity that what surrounds a lamp adds to the lamp's, as a share. from_lamp: unit.
 vec3 reflectedShare(Light light, vec3 from_lamp);
+
+// True if the atlas of receivers has the light of a lamp: surfaces that it lights leave the lamp out.
+bool isBaked(Light light) { return (light.reflector_axis & kLightBaked) != 0u; }
 
 // Irradiance of a light on a surface that faces it, and the direction to the light. KHR_lights_punctual.
 vec3 lightIrradiance(Light light, vec3 position, out vec3 to_light)

@@ -37,6 +37,8 @@ uvec2 loadLightBits();
 // Radiance towards the eye from a light.
 vec3 lightRadiance(uint row, SurfacePoint point, Shading shading, Layers layers)
 {
+    if (point.received.is_known && isBaked(lights[row]))
+        return vec3(0.0);
     vec3 to_light;
     vec3 irradiance = lightIrradiance(lights[row], point.position, to_light);
     float share = lightVisibility(lights[row], point.position, point.flat_normal, point.error);
@@ -91,7 +93,8 @@ vec3 lit(SurfacePoint point, SurfaceUvs uvs, mediump vec3 base)
     // layers fit neither into what is stored nor into sums
 #ifdef HEARTH_STORES_SURFACES
     if (kLayers == 0u)
-        out_surface = packSurface(LitSurface(normal, point.flat_normal, base, metallic, shading.roughness, point.error));
+        out_surface = packSurface(LitSurface(normal, point.flat_normal, base, metallic, shading.roughness, point.error,
+                                             point.received.is_known));
     else
 #endif
 #ifdef HEARTH_SUMMED_LIGHTS
@@ -104,7 +107,8 @@ vec3 lit(SurfacePoint point, SurfaceUvs uvs, mediump vec3 base)
     mediump float occlusion_strength = material.occlusion_strength;
     mediump float occlusion = mix(1.0, sampleSurface(uvs, kTextureOcclusion, occlusion_texture).r, occlusion_strength);
     radiance += surroundingLight(point, shading, layers, occlusion);
-    vec3 emission = material.emissive * sampleSurface(uvs, kTextureEmissive, emissive_texture).rgb;
+    vec3 emission = material.emissive * sampleSurface(uvs, kTextureEmissive, emissive_texture).rgb *
+                    point.received.emission_weight;
     return radiance + belowCoat(layers) * lighting.exposure * emission;
 }
 

@@ -11,6 +11,7 @@ struct LitSurface
     mediump float metallic;
     float roughness; // perceptual, above 0
     float error; // metres, bounds the distance of the triangle to the source
+    bool receives; // baked lamps have been counted already: ReceivedLight::is_known
 };
 
 #endif

@@ -30,6 +30,7 @@ layout(location = 1) out uvec4 out_surface;
 #include "runtime/shaders/shade/unshadowed.glsl"
 #endif
 #include "runtime/shaders/shade/lighting.glsl"
+#include "runtime/shaders/scene/receivers.glsl"
 #ifdef HEARTH_GI
 #include "runtime/shaders/shade/surrounding_bricks.glsl"
 #else
@@ -45,5 +46,7 @@ void main()
     out_surface = kNoSurface;
 #endif
     Surface s = resolveSurface(id, gl_FragCoord.xy);
-    out_color = vec4(displayColor(surfacePoint(s), surfaceUvs(s)), 1.0);
+    SurfacePoint point = surfacePoint(s);
+    point.received = surfaceReceivedLight(s);
+    out_color = vec4(displayColor(point, surfaceUvs(s)), 1.0);
 }

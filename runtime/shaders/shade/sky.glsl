@@ -3,9 +3,8 @@
 #include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/light_cone.h"
 #include "runtime/shaders/scene/sky_rows.glsl"
+#include "runtime/shaders/shade/shading_tables.glsl"
 
-// texels (height, half-angle): means over cones
-layout(set = kSetScene, binding = kSceneSkyTable) uniform mediump sampler2D sky_table;
 // radiance as lobes of each roughness reflect it, over skyImageFactor; its largest texel is beyond mediump
 layout(set = kSetScene, binding = kSceneSkyCube) uniform samplerCube sky_cube;
 
@@ -16,8 +15,10 @@ const float kMaxMirrorRadiance = 32768.0;
 mediump vec3 skyConeRadiance(LightCone cone)
 {
     const mediump vec2 nodes = vec2(kSkyTableHeights, kSkyTableAngles);
-    mediump vec2 at = (skyTableCoordinates(cone.axis.y, cone.cos_half_angle) * (nodes - 1.0) + 0.5) / nodes;
-    return skyMeanRadiance(sceneSky(), textureLod(sky_table, at, 0.0).rg); // one mip
+    // node (height, half-angle)
+    mediump vec2 node = skyTableCoordinates(cone.axis.y, cone.cos_half_angle) * (nodes - 1.0);
+    vec2 at = (node + vec2(0.5, 0.5 + float(kSkyTableRow))) / kShadingTablesSize;
+    return skyMeanRadiance(sceneSky(), textureLod(shading_tables, at, 0.0).rg); // one mip
 }
 
 // Radiance from a direction, as the camera sees it.

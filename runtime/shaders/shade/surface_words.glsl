@@ -10,10 +10,11 @@ const vec3 kRootSteps = vec3(2047.0, 2047.0, 1023.0);
 const float kRoughnessSteps = 16383.0;
 const float kMetallicSteps = 1023.0;
 const float kFlatNormalSteps = 4094.0; // even: 0 has a code
+const uint kReceivesBit = 0x80000000u;
 
 // The normal has 16 + 16 bits and the roughness 14, for highlights; the colour 11, 11 and 10 of its root,
-// metallic 10. The normal of the triangle, with 12 + 12 bits, and the error, a half, move points out of their
-// own shadows.
+// metallic 10. The normal of the triangle, with 12 + 12 bits, and the error, a half without its sign, move
+// points out of their own shadows. The last bit says that baked lamps are counted already.
 uvec4 packSurface(LitSurface surface)
 {
     uvec3 root = uvec3(round(sqrt(clamp(surface.base, 0.0, 1.0)) * kRootSteps));
@@ -23,7 +24,7 @@ uvec4 packSurface(LitSurface surface)
     uint error = packHalf2x16(vec2(min(surface.error, 65504.0), 0.0));
     return uvec4(packSnorm2x16(octahedralPoint(surface.normal)), root.r | root.g << 11 | root.b << 22,
                  roughness | metallic << 14 | error << 24,
-                 flat_normal.x | flat_normal.y << 12 | error >> 8 << 24);
+                 flat_normal.x | flat_normal.y << 12 | error >> 8 << 24 | (surface.receives ? kReceivesBit : 0u));
 }
 
 LitSurface unpackSurface(uvec4 words)
@@ -36,6 +37,7 @@ LitSurface unpackSurface(uvec4 words)
     surface.metallic = float(words.z >> 14 & 1023u) / kMetallicSteps;
     vec2 flat_normal = vec2(words.w & 4095u, words.w >> 12 & 4095u) / kFlatNormalSteps;
     surface.flat_normal = octahedralDirection(flat_normal * 2.0 - 1.0);
-    surface.error = unpackHalf2x16(words.z >> 24 | words.w >> 24 << 8).x;
+    surface.error = unpackHalf2x16(words.z >> 24 | (words.w & ~kReceivesBit) >> 24 << 8).x;
+    surface.receives = (words.w & kReceivesBit) != 0u;
     return surface;
 }

@@ -27,6 +27,11 @@ vec3 surroundingLight(SurfacePoint point, Shading shading, Layers layers, medium
 {
     GiSample light = sampleGi(gl_FragCoord.xy, point.position, shading.normal, shading.roughness);
     mediump float fine = min(occlusion, fineOcclusion(point, shading.normal, light.sky));
+    if (point.received.is_known) // which has all occlusion
+    {
+        light.diffuse = point.received.mean_radiance;
+        fine = 1.0;
+    }
     vec3 radiance = fine * shading.albedo.diffuse * light.diffuse + occlusion * shading.albedo.specular * light.mirror;
     if (hasLayer(kLayerSheen))
         radiance = addSheen(layers, radiance, fine * light.diffuse);

@@ -40,7 +40,10 @@ vec3 surroundingLight(SurfacePoint point, Shading shading, Layers layers, medium
     }
     LightCone specular = skyLobeCone(shading.lobe, mirror, shading.normal, shading.roughness, shading.n_dot_v);
     mediump vec3 seen = skyDiffuse(diffuse);
-    mediump vec3 radiance = shading.albedo.diffuse * (diffuse_share * seen + occluded) +
+    mediump vec3 arriving = diffuse_share * seen + occluded;
+    if (point.received.is_known)
+        arriving = point.received.mean_radiance;
+    mediump vec3 radiance = shading.albedo.diffuse * arriving +
                     shading.albedo.specular * mirroredSky(sky, occluders, specular, mirror, shading.roughness,
                                                           shading.n_dot_v, seen, occlusion);
     if (hasLayer(kLayerSheen))
@@ -49,7 +52,9 @@ vec3 surroundingLight(SurfacePoint point, Shading shading, Layers layers, medium
         LightCone open = sheenCone(layers.sheen, shading.to_eye, shading.normal);
         if (kSkyVisibility)
             open = visibleSpecularCone(sky, open);
-        radiance = addSheen(layers, radiance, diffuse_share * skyDiffuse(open) + occluded);
+        if (!point.received.is_known)
+            arriving = diffuse_share * skyDiffuse(open) + occluded;
+        radiance = addSheen(layers, radiance, arriving);
     }
     if (hasLayer(kLayerClearcoat))
     {

@@ -1,5 +1,5 @@
-// Debug views of surface data: clusters, LOD levels, triangles, materials, bones, normals, depth and sky
-// visibility.
+// Debug views of surface data: clusters, LOD levels, triangles, materials, bones, normals, depth, sky
+// visibility, lists of lights and receivers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
@@ -15,6 +15,7 @@
 #include "runtime/shaders/shade/tonemap.glsl"
 #include "runtime/shaders/shade/sky_occlusion.glsl"
 #include "runtime/shaders/shade/light_list.glsl"
+#include "runtime/shaders/scene/receivers.glsl"
 
 layout(early_fragment_tests) in;
 layout(location = 0) out vec4 out_color;
@@ -63,6 +64,20 @@ vec3 lightColor(Surface s)
     return hashColor(lightCellAt(lighting.cascades[lightCascadeAt(depth)], gl_FragCoord.x, gl_FragCoord.y, depth));
 }
 
+// Irradiance of the atlas on white, with its texels as a checkerboard. Violet: the pixel has none.
+vec3 receivedColor(Surface s, float facing)
+{
+    const vec3 none = vec3(0.16, 0.02, 0.22);
+    if (!kReceivers)
+        return none * facing;
+    ReceiverRow row = receiverRow(s.slot.instance);
+    if (!isReceiver(row, s))
+        return none * facing;
+    vec2 texel = surfaceReceiverTexel(row, s);
+    uvec2 number = uvec2(texel);
+    return toneMap(sampleReceivers(texel) / kVisibilityPi) * (((number.x ^ number.y) & 1u) == 0u ? 1.0 : 0.75);
+}
+
 bool isSkyView(uint debug_view)
 {
     return debug_view == kViewAmbientOcclusion || debug_view == kViewBentNormal || debug_view == kViewAperture ||
@@ -98,6 +113,11 @@ void main()
     // dimmed by the angle to the eye, so that the shape is visible
     float facing = 0.35 + 0.65 * abs(dot(geometricNormal(s), normalizeOr(s.position, vec3(0.0))));
     vec3 color;
+    if (push.debug_view == kViewReceivers)
+    {
+        out_color = vec4(receivedColor(s, facing), 1.0);
+        return;
+    }
     if (push.debug_view == kViewClusters)
         color = facing * hashColor(s.slot.cluster * 7919u + s.slot.instance);
     else if (push.debug_view == kViewLod)

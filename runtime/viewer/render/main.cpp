@@ -128,6 +128,9 @@ public:
     {
     }
 
+    /// Set weights of lamps, which the next frame takes. The span must live until then.
+    void setLampWeights(std::span<const gpu::LampWeight> weights) { lamp_weights_ = weights; }
+
     /// Set the view of later frames.
     void setView(uint32_t view) { settings_.view = view; }
 
@@ -165,6 +168,7 @@ public:
         frame.moves = moves_;
         frame.poses = poses_;
         frame.lights = lights_.changes();
+        frame.lamp_weights = std::exchange(lamp_weights_, {}); // weights stay
         beginFrame();
         if (options_.pyramid == PyramidStart::none)
             targets_.setPyramidView({});
@@ -420,9 +424,10 @@ private:
     gpu::FrameTargets& targets_;
     VkQueryPool timestamps_;
     FrameSettings settings_;
-    std::vector<gpu::InstanceMove> moves_;       ///< of the next frame
-    std::span<const gpu::InstancePose> poses_{}; ///< of the next frame
-    FrameLights lights_;                         ///< changes since the last frame
+    std::vector<gpu::InstanceMove> moves_;            ///< of the next frame
+    std::span<const gpu::InstancePose> poses_{};      ///< of the next frame
+    FrameLights lights_;                              ///< changes since the last frame
+    std::span<const gpu::LampWeight> lamp_weights_{}; ///< of the next frame
     std::vector<std::vector<double>> times_;
     std::vector<FrameCounts> frames_; ///< frames that were written
     std::vector<StreamCounts> streaming_;
@@ -635,6 +640,9 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
     HEARTH_ASSIGN_OR_RETURN(const VkQueryPool timestamps, host.createTimestamps(gpu::kTimestampCount));
     FrameRecorder run(options, frameSettings(options, sheet.has_value()), pack, animation,
                       images.stage ? &*images.stage : nullptr, host, *renderer, *scene, targets, timestamps);
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<gpu::LampWeight> lamp_weights,
+                            findLampWeights(options.lamps, pack, *scene));
+    run.setLampWeights(lamp_weights);
     HEARTH_TRY(sheet ? drawSheet(options, images, *sheet, run) : drawImages(options, images, run));
     return run.writeStats(sheet);
 }

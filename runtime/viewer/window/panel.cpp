@@ -139,6 +139,32 @@ void buildAnimation(PlaybackSettings& settings, const PanelData& facts)
                        ImGuiSliderFlags_AlwaysClamp);
 }
 
+/// Show the weights of lamps, of their live light and of what is baked of it.
+void buildLamps(std::vector<LampControl>& lamps)
+{
+    if (lamps.empty() || !ImGui::CollapsingHeader("Lamps"))
+        return;
+    constexpr float kMaxBrightness = 4;
+    constexpr size_t kMaxRows = 200;
+    if (ImGui::SmallButton("all as they were"))
+        for (LampControl& lamp : lamps)
+            lamp = {.lamp = lamp.lamp};
+    for (size_t i = 0; i < std::min(lamps.size(), kMaxRows); ++i)
+    {
+        LampControl& lamp = lamps[i];
+        ImGui::PushID(static_cast<int>(i)); // several may have one name
+        float color[] = {lamp.color.x, lamp.color.y, lamp.color.z};
+        if (ImGui::ColorEdit3("##color", color, ImGuiColorEditFlags_NoInputs | ImGuiColorEditFlags_Float))
+            lamp.color = {color[0], color[1], color[2]};
+        ImGui::SameLine();
+        const std::string name(lamp.lamp.name.empty() ? std::string_view("lamp without name")
+                                                      : lamp.lamp.name);
+        ImGui::SliderFloat(name.c_str(), &lamp.brightness, 0, kMaxBrightness, "%.2f",
+                           ImGuiSliderFlags_AlwaysClamp);
+        ImGui::PopID();
+    }
+}
+
 /// Show the settings of what follows the lighting; zero everywhere is none.
 void buildPost(gpu::PostSettings& post)
 {
@@ -192,6 +218,7 @@ void Panel::build(ViewSettings& settings, const PanelData& facts)
         chooseCamera(settings, facts);
         chooseAsset(settings, facts.assets);
         buildImage(settings.frame, facts);
+        buildLamps(settings.lamps);
         buildPost(settings.frame.post);
         buildAnimation(settings.playback, facts);
         buildCurve(settings.frame);

@@ -6,6 +6,7 @@
 #include "runtime/viewer/window/asset_views.h"
 #include "runtime/viewer/window/fly_camera.h"
 #include "runtime/viewer/window/frame_meter.h"
+#include "runtime/viewer/window/lamp_weights.h"
 #include "runtime/viewer/window/playback.h"
 
 namespace hearth::viewer
@@ -19,8 +20,9 @@ struct ViewSettings
     uint64_t memory_budget = 0; ///< bytes; 0: all geometry is resident
     bool count_culling = false;
     bool panel = true;
-    std::optional<size_t> camera{}; ///< request: go to this one of PanelData::cameras
-    std::optional<size_t> asset{};  ///< this one of PanelData::assets; none: the whole scene
+    std::optional<size_t> camera{};   ///< request: go to this one of PanelData::cameras
+    std::vector<LampControl> lamps{}; ///< of the pack
+    std::optional<size_t> asset{};    ///< this one of PanelData::assets; none: the whole scene
 };
 
 struct NamedCamera

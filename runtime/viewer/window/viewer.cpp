@@ -117,6 +117,7 @@ Result<std::unique_ptr<Viewer>> Viewer::create(const ViewOptions& options, const
     playback.pose(player);
     HEARTH_ASSIGN_OR_RETURN(const shared::Camera start, chooseCamera(options, pack, player));
     std::unique_ptr<Viewer> viewer(new Viewer(options, pack, std::move(playback), player, start));
+    HEARTH_ASSIGN_OR_RETURN(viewer->settings_.lamps, listLampControls(pack, options.lamps));
     HEARTH_TRY(viewer->open(options));
     return viewer;
 }
@@ -139,8 +140,8 @@ Status Viewer::open(const ViewOptions& options)
     HEARTH_ASSIGN_OR_RETURN(frames_, FrameRing::create(*host_, device, vk_));
     HEARTH_ASSIGN_OR_RETURN(meter_, FrameMeter::create(*host_, device));
     HEARTH_ASSIGN_OR_RETURN(imgui_, ImguiLayer::create(*window_, *host_, device, *swapchain_));
-    HEARTH_ASSIGN_OR_RETURN(
-        scene_, LoadedScene::load(*host_, *renderer_, pack_, settings_.memory_budget, shadows_));
+    HEARTH_ASSIGN_OR_RETURN(scene_,
+                            LoadedScene::load(*host_, *renderer_, pack_, settings_.memory_budget, shadows_));
     return success();
 }
 
@@ -261,6 +262,7 @@ Status Viewer::show(std::unique_ptr<LoadedScene> scene)
     light_method_ = gpu::LightMethod::practical;
     HEARTH_TRY(prepareLightMethod());
     lights_ = FrameLights();
+    lamp_weights_ = SceneLampWeights();
     if (assets_.stage)
         assets_.stage->reset();
     return success();
@@ -321,6 +323,7 @@ Status Viewer::poseScene()
     light_player_.update(player_, playback_.flickerSeconds());
     lights_.clear();
     HEARTH_TRY(lights_.add(light_player_, scene_->scene()));
+    HEARTH_TRY(lamp_weights_.update(settings_.lamps, scene_->scene()));
     if (!assets_.stage)
         return success();
     const size_t part = AssetViews::partIndex(asset_);
@@ -401,6 +404,7 @@ void Viewer::recordFrame(VkCommandBuffer commands, uint32_t image, bool panel, c
     frame.moves = moves_;
     frame.poses = poses_;
     frame.lights = lights_.changes();
+    frame.lamp_weights = lamp_weights_.changes();
     frame.timestamps = meter_->timestamps(frames_->slot());
     renderer().record(commands, scene, *targets_, frame);
     meter_->record(commands, *scene_, frames_->slot(), settings_.count_culling);

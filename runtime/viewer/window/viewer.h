@@ -74,6 +74,7 @@ private:
     pack::LightPlayer light_player_;
     FramePose pose_;
     FrameLights lights_; ///< changes of the next frame
+    SceneLampWeights lamp_weights_;
     /// Cameras to go to; the first is the start camera, the second shows the whole scene.
     std::vector<NamedCamera> cameras_;
     AssetViews assets_;

@@ -156,8 +156,7 @@ public:
             }));
         scene_->staging.reset();
         meter_.resetPeak();
-        for (const gpu::Image* table :
-             {&scene_->reflectance_table, &scene_->sky_table, &scene_->specular_table})
+        for (const gpu::Image* table : {&scene_->shading_tables, &scene_->specular_table})
             table_bytes_ += table->bytes;
         for (const gpu::Image& image : scene_->images)
             table_bytes_ += image.bytes;

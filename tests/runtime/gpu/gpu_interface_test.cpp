@@ -52,7 +52,8 @@ std::map<std::string, uint32_t> constantIds()
             {"kFiltersShadows", shared::kConstantFiltersShadows},
             {"kLightList", shared::kConstantLightList},
             {"kStored", shared::kConstantStored},
-            {"kReflects", shared::kConstantReflects}};
+            {"kReflects", shared::kConstantReflects},
+            {"kReceivers", shared::kConstantReceivers}};
 }
 
 /// Not a GpuTest: that creates pipelines, and a driver may crash where a shader and a layout differ.

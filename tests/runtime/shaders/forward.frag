@@ -32,6 +32,7 @@ void main()
     point.instance = 0u; // not read without occlusion
     point.slot = 0u;     // nor this one by the default light method
     point.color = in_color;
+    point.received = kNoReceivedLight;
     // two-sided materials: mirrored instances are drawn without reversing the front face
     bool turned = (material.flags & kMaterialDoubleSided) != 0u && in_mirrored != 0u;
     point.front = gl_FrontFacing != turned;

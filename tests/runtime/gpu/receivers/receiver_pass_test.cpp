@@ -46,7 +46,7 @@ protected:
                                          std::span<const uint32_t> groups)
     {
         HEARTH_ASSIGN_OR_RETURN(const gpu::ReceiverPass pass, gpu::ReceiverPass::create(device_));
-        std::optional<gpu::SceneReceivers> scene;
+        std::optional<gpu::ReceiverAtlas> scene;
         std::optional<gpu::Uploader> uploader;
         const auto frames = static_cast<uint32_t>(groups.size());
         HEARTH_TRY(host_->run(

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/receivers/scene_receivers.h"
+
+#include "formats/base/half.h"
+#include "formats/base/index.h"
+#include "formats/gpu_shared/record_values.h"
+
+#include <algorithm>
+
+namespace hearth::gpu
+{
+
+namespace
+{
+
+void setEmission(Float3 weight, shared::ReceiverRow& row)
+{
+    const auto half = [](float value) -> uint32_t { return halfFromFloat(std::min(value, kHalfMax)); };
+    row.emission_red_green = half(weight.x) | half(weight.y) << 16;
+    row.emission_blue = half(weight.z);
+}
+
+/// True if two lights differ by their intensity alone.
+bool isInPlace(const shared::Light& light, const shared::Light& loaded)
+{
+    return light.type == loaded.type && light.position == loaded.position &&
+           light.direction == loaded.direction && light.range == loaded.range &&
+           light.cone_scale == loaded.cone_scale && light.cone_offset == loaded.cone_offset;
+}
+
+/// Return the weight that makes a baked intensity another one. A channel that was baked dark stays dark.
+float intensityRatio(float intensity, float baked)
+{
+    return baked > 0 ? std::clamp(intensity / baked, 0.0f, kHalfMax) : 0.0f;
+}
+
+} // namespace
+
+SceneReceivers::SceneReceivers(const formats::PackView& pack, std::span<const shared::Light> lights)
+    : lamps_of_lights_(lights.size(), kInvalidIndex),
+      lamps_of_instances_(pack.instances().size(), kInvalidIndex),
+      loaded_(lights.begin(), lights.end()),
+      rows_(pack.instances().size()),
+      sizes_(pack.instances().size()),
+      schedule_(pack.receivers().lamps.size())
+{
+    const formats::ReceiverTables tables = pack.receivers();
+    for (uint32_t lamp = 0; lamp < tables.lamps.size(); ++lamp)
+    {
+        const formats::ReceiverLampRecord& record = tables.lamps[lamp];
+        const auto kind = static_cast<formats::ReceiverLampKind>(record.kind);
+        // lights beyond the most that are drawn keep their baked light
+        if (kind == formats::ReceiverLampKind::light && record.index < lamps_of_lights_.size())
+            lamps_of_lights_[record.index] = lamp;
+        else if (kind == formats::ReceiverLampKind::mesh_light)
+            lamps_of_instances_[record.index] = lamp;
+    }
+    for (shared::ReceiverRow& row : rows_)
+        setEmission({1, 1, 1}, row);
+    for (const formats::ReceiverRectRecord& rect : tables.rects)
+    {
+        shared::ReceiverRow& row = rows_[rect.instance];
+        row.place = shared::encodeReceiverPlace(rect.x, rect.y) | rect.uv_set << shared::kReceiverUvSetShift;
+        row.size = rect.width | rect.height << 16;
+        sizes_[rect.instance] = row.size;
+    }
+}
+
+bool SceneReceivers::takeLight(uint32_t slot, const shared::Light& light)
+{
+    if (slot >= lamps_of_lights_.size() || lamps_of_lights_[slot] == kInvalidIndex)
+        return false;
+    const shared::Light& loaded = loaded_[slot];
+    const bool is_in_place = isInPlace(light, loaded);
+    Float3 weight{};
+    for (int c = 0; c < 3 && is_in_place; ++c)
+        weight[c] = intensityRatio(light.intensity[c], loaded.intensity[c]);
+    schedule_.setWeight(lamps_of_lights_[slot], weight);
+    return is_in_place && light.type != shared::kLightDirectional;
+}
+
+const shared::ReceiverRow& SceneReceivers::weighEmission(uint32_t instance, Float3 weight)
+{
+    if (const uint32_t lamp = lamps_of_instances_[instance]; lamp != kInvalidIndex)
+        schedule_.setWeight(lamp, weight);
+    setEmission(weight, rows_[instance]);
+    return rows_[instance];
+}
+
+const shared::ReceiverRow& SceneReceivers::takeMove(uint32_t instance, bool is_at_rest)
+{
+    rows_[instance].size = is_at_rest ? sizes_[instance] : 0;
+    return rows_[instance];
+}
+
+uint32_t SceneReceivers::beginUpdate()
+{
+    updated_groups_ = schedule_.nextGroups();
+    return updated_groups_;
+}
+
+} // namespace hearth::gpu

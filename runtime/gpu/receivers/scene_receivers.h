@@ -1,0 +1,58 @@
+// Receivers of a scene: which of its lights and instances the atlas has, their weights, and the rows in which
+// shading finds the rectangles of instances. The atlas itself is receiver_pass.h's.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/gpu_shared/receivers/receiver_rows.h"
+#include "formats/gpu_shared/shading.h"
+#include "formats/pack/pack_view.h"
+#include "runtime/gpu/receivers/receiver_pass.h"
+#include "runtime/pack/receivers/receiver_schedule.h"
+
+#include <optional>
+#include <vector>
+
+namespace hearth::gpu
+{
+
+class SceneReceivers
+{
+public:
+    /// pack    checked, with an atlas
+    /// lights  of the pack as loaded, exposed
+    SceneReceivers(const formats::PackView& pack, std::span<const shared::Light> lights);
+
+    /// Rows of all instances as they are now.
+    std::span<const shared::ReceiverRow> rows() const { return rows_; }
+
+    /// Take the new state of a light: the atlas's lamp follows its intensity, of flicker and clips as well. A
+    /// light that is not where it was baked has no light in the atlas until it is back.
+    /// returns  true if surfaces with a rectangle leave the light out: a lamp whose light the atlas has.
+    ///          Suns never are: their direct light is not baked
+    bool takeLight(uint32_t slot, const shared::Light& light);
+
+    /// Set the weight of an instance's emission, in its row and of its lamp. Returns the row.
+    const shared::ReceiverRow& weighEmission(uint32_t instance, Float3 weight);
+
+    /// Take a move of an instance: it has its rectangle where it was baked, and nowhere else. Returns the row.
+    const shared::ReceiverRow& takeMove(uint32_t instance, bool is_at_rest);
+
+    /// Return the update groups that a frame is to update, by bits, as if it did; see ReceiverSchedule.
+    uint32_t beginUpdate();
+    /// Groups of the last frame.
+    uint32_t updatedGroups() const { return updated_groups_; }
+    std::span<const Float3> weights() const { return schedule_.weights(); }
+
+    std::optional<ReceiverAtlas> atlas; ///< set by the upload
+
+private:
+    std::vector<uint32_t> lamps_of_lights_;    ///< [slot]: lamp, or kInvalidIndex
+    std::vector<uint32_t> lamps_of_instances_; ///< [instance]: the same
+    std::vector<shared::Light> loaded_;        ///< lights of the pack
+    std::vector<shared::ReceiverRow> rows_;
+    std::vector<uint32_t> sizes_; ///< [instance]: ReceiverRow::size at rest
+    pack::ReceiverSchedule schedule_;
+    uint32_t updated_groups_ = 0;
+};
+
+} // namespace hearth::gpu

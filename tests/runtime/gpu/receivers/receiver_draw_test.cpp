@@ -1,0 +1,387 @@
+// Draws rooms with receivers of baked light, and compares them with live light, with the CPU twin, and among
+// all light methods.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/base/half.h"
+#include "runtime/pack/receivers/receiver_light.h"
+#include "tests/runtime/gpu/frame/stage_spy.h"
+#include "tests/runtime/gpu/lights/all_lights_test.h"
+#include "tests/runtime/gpu/receivers/receiver_room.h"
+
+#include <algorithm>
+#include <numbers>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+using formats::LightRecord;
+using formats::LightType;
+
+constexpr uint32_t kWidth = 96, kHeight = 72;
+constexpr shared::Camera kCamera{.position = {1.6f, 1.7f, 3.2f}, .target = {-0.4f, 1.2f, -1}};
+
+LightRecord lamp(Float3 position, float intensity, Float3 color = {1, 1, 1})
+{
+    LightRecord record = light(LightType::point, position, {0, -1, 0}, intensity);
+    record.color = color;
+    record.range = 9;
+    return record;
+}
+
+/// Changes of a frame.
+struct Changes
+{
+    std::vector<gpu::InstanceMove> moves{};
+    std::vector<gpu::LightChange> lights{};
+    std::vector<gpu::LampWeight> weights{};
+};
+
+class ReceiverDrawTest : public AllLightsTest
+{
+protected:
+    std::unique_ptr<gpu::Scene> load(const formats::PackView& pack, const gpu::SceneOptions& options = {})
+    {
+        auto scene = upload(pack, options);
+        EXPECT_EQ(scene->lights->exposure(), 1) << "baked light of this room has no exposure";
+        return scene;
+    }
+
+    /// Draw a frame; return its linear colours.
+    std::vector<Float3> drawRadiance(const gpu::Scene& scene, const Changes& changes = {},
+                                     const shared::Camera& camera = kCamera)
+    {
+        auto targets = renderer().createTargets({kWidth, kHeight}, {.keeps_radiance = true});
+        HEARTH_ASSERT(targets.ok());
+        const gpu::FrameInput input{.view = makeView(scene, camera, {.width = kWidth, .height = kHeight}),
+                                    .moves = changes.moves,
+                                    .lights = changes.lights,
+                                    .lamp_weights = changes.weights};
+        const Status status = host().run(
+            [&](VkCommandBuffer commands)
+            {
+                renderer().record(commands, scene, *targets, input);
+                return success();
+            });
+        HEARTH_ASSERT(status.ok());
+        const auto bytes = host().readSampled(renderer().device(), targets->post().radiance(), 8);
+        HEARTH_ASSERT(bytes.ok());
+        std::vector<Float3> radiance;
+        for (size_t i = 0; i < bytes->size(); i += 8)
+        {
+            std::array<uint16_t, 4> halves;
+            std::memcpy(&halves, bytes->data() + i, sizeof(halves));
+            radiance.push_back(
+                {floatFromHalf(halves[0]), floatFromHalf(halves[1]), floatFromHalf(halves[2])});
+        }
+        return radiance;
+    }
+
+    /// Return the instance of each pixel; kInvalidIndex for the background.
+    std::vector<uint32_t> drawInstances(const gpu::Scene& scene)
+    {
+        std::vector<uint32_t> instances;
+        for (const auto& seen : draw(scene, kCamera, {.width = kWidth, .height = kHeight}).seen())
+            instances.push_back(seen[0]);
+        return instances;
+    }
+
+    /// Compare radiances of the pixels of instances.
+    /// share  the largest difference over the largest value
+    static void expectNear(const std::vector<Float3>& radiance, const std::vector<Float3>& expected,
+                           const std::vector<uint32_t>& instances, uint32_t first, uint32_t end, double share)
+    {
+        double largest = 0, off = 0;
+        size_t count = 0;
+        for (size_t i = 0; i < radiance.size(); ++i)
+        {
+            if (instances[i] < first || instances[i] >= end)
+                continue;
+            ++count;
+            for (int c = 0; c < 3; ++c)
+            {
+                largest = std::max<double>(largest, expected[i][c]);
+                off = std::max<double>(off, std::abs(radiance[i][c] - expected[i][c]));
+            }
+        }
+        EXPECT_GT(count, 100u);
+        EXPECT_GT(largest, 0.01);
+        EXPECT_LE(off, share * largest);
+    }
+
+    static std::vector<Float3> difference(std::vector<Float3> a, const std::vector<Float3>& b)
+    {
+        for (size_t i = 0; i < a.size(); ++i)
+            a[i] = a[i] - b[i];
+        return a;
+    }
+
+    static std::vector<Float3> scaled(std::vector<Float3> a, Float3 factor)
+    {
+        for (Float3& value : a)
+            value = value * factor;
+        return a;
+    }
+
+    /// Return the light of lamps on a scene without receivers: what is there without them is taken away.
+    std::vector<Float3> drawLamps(const gpu::Scene& live, uint32_t lamps)
+    {
+        const std::vector<Float3> lit = drawRadiance(live);
+        Changes dark;
+        for (uint32_t i = 0; i < lamps; ++i)
+            dark.weights.push_back(gpu::weighLight(live, i, {}).value());
+        return difference(lit, drawRadiance(live, dark));
+    }
+
+    static void addTwoLamps(ReceiverRoom& room)
+    {
+        room.addLamp(lamp({0.6f, 2.2f, 0.8f}, 1.5f, {1, 0.7f, 0.4f}));
+        room.addLamp(lamp({-0.5f, 1.1f, 0.3f}, 0.7f, {0.3f, 0.6f, 1}));
+    }
+};
+
+} // namespace
+
+TEST_F(ReceiverDrawTest, wallsShowBakedLampsAsLiveOnes)
+{
+    for (const uint32_t uv_set : {0u, 1u})
+    {
+        ReceiverRoom room;
+        addTwoLamps(room);
+        const auto live = load(room.buildLive());
+        const auto instances = drawInstances(*live);
+        const std::vector<Float3> lamps = drawLamps(*live, 2);
+        const auto baked = load(room.build(uv_set));
+        expectNear(drawRadiance(*baked), lamps, instances, 0, ReceiverRoom::kWalls, 0.01);
+    }
+}
+
+TEST_F(ReceiverDrawTest, aSurfaceWithoutRectangleIsLitAsEver)
+{
+    ReceiverRoom room;
+    addTwoLamps(room);
+    const auto live = load(room.buildLive());
+    const auto instances = drawInstances(*live);
+    const std::vector<Float3> expected = drawRadiance(*live);
+    const auto baked = load(room.build());
+    expectNear(drawRadiance(*baked), expected, instances, ReceiverRoom::kSheet, ReceiverRoom::kSheet + 1, 0);
+}
+
+TEST_F(ReceiverDrawTest, weightsScaleBakedAndLiveLightAtOnce)
+{
+    ReceiverRoom room;
+    room.addLamp(lamp({0.2f, 2, 0.8f}, 1.2f));
+    const auto live = load(room.buildLive());
+    const auto instances = drawInstances(*live);
+    const auto baked = load(room.build());
+    const std::vector<Float3> full = drawRadiance(*baked);
+    const Float3 weight{0.5f, 0.25f, 0};
+    const Changes dim{.weights = {gpu::weighLight(*baked, 0, weight).value()}};
+    const std::vector<Float3> dimmed = drawRadiance(*baked, dim);
+    expectNear(dimmed, scaled(full, weight), instances, 0, ReceiverRoom::kWalls, 0.004);
+    expectNear(dimmed, drawRadiance(*live, {.weights = {gpu::weighLight(*live, 0, weight).value()}}),
+               instances, ReceiverRoom::kSheet, ReceiverRoom::kSheet + 1, 0);
+    // the weight stays with the light, whatever changes
+    EXPECT_EQ(drawRadiance(*baked), dimmed);
+    LightRecord brighter = room.scene().model().lights[0];
+    brighter.intensity *= 2;
+    const Changes flicker{.lights = {gpu::changeLight(*baked, 0, brighter).value()}};
+    expectNear(drawRadiance(*baked, flicker), scaled(full, weight * 2.0f), instances, 0, ReceiverRoom::kWalls,
+               0.004);
+}
+
+TEST_F(ReceiverDrawTest, weightsOfManyFramesAreThoseOfOne)
+{
+    ReceiverRoom room;
+    addTwoLamps(room);
+    const auto pack = room.build();
+    const auto slow = load(pack), fast = load(pack);
+    // small enough a change that each frame updates a quarter of the texels
+    constexpr Float3 kWeight{1.03f, 0.97f, 1};
+    drawRadiance(*slow);
+    const Changes changes{
+        .weights = {gpu::weighLight(*slow, 0, kWeight).value(), gpu::weighLight(*slow, 1, kWeight).value()}};
+    std::vector<Float3> last = drawRadiance(*slow, changes);
+    const std::vector<Float3> expected = drawRadiance(*fast, changes);
+    EXPECT_NE(last, expected) << "three quarters of the texels are old";
+    for (int frame = 0; frame < 3; ++frame)
+    {
+        EXPECT_NE(slow->receivers->updatedGroups(), 15u);
+        last = drawRadiance(*slow);
+    }
+    EXPECT_EQ(last, expected);
+}
+
+TEST_F(ReceiverDrawTest, aMovedInstanceLosesItsRectangle)
+{
+    ReceiverRoom room;
+    addTwoLamps(room);
+    const auto live = load(room.buildLive());
+    const auto instances = drawInstances(*live);
+    const auto baked = load(room.build());
+    const std::vector<Float3> at_rest = drawRadiance(*baked);
+    Affine3 moved = room.wall(1);
+    moved.m[2][3] -= 0.01f;
+    const auto move = [&](const gpu::Scene& scene, const Affine3& to)
+    { return Changes{.moves = {gpu::moveInstance(scene, 1, to).value()}}; };
+    expectNear(drawRadiance(*baked, move(*baked, moved)), drawRadiance(*live, move(*live, moved)), instances,
+               1, 2, 0);
+    EXPECT_EQ(drawRadiance(*baked, move(*baked, room.wall(1))), at_rest);
+}
+
+TEST_F(ReceiverDrawTest, aMovedLampIsLiveUntilItIsBack)
+{
+    ReceiverRoom room;
+    room.addLamp(lamp({0.2f, 2, 0.8f}, 1.2f));
+    const auto live = load(room.buildLive());
+    const auto instances = drawInstances(*live);
+    const auto baked = load(room.build());
+    const std::vector<Float3> at_rest = drawRadiance(*baked);
+    LightRecord elsewhere = room.scene().model().lights[0];
+    elsewhere.world_from_light = translated({-0.8f, 1.5f, 0.5f});
+    const auto change = [&](const gpu::Scene& scene, const LightRecord& to)
+    { return Changes{.lights = {gpu::changeLight(scene, 0, to).value()}}; };
+    const std::vector<Float3> lit = drawRadiance(*live, change(*live, elsewhere));
+    const std::vector<Float3> dark =
+        drawRadiance(*live, {.weights = {gpu::weighLight(*live, 0, {}).value()}});
+    expectNear(drawRadiance(*baked, change(*baked, elsewhere)), difference(lit, dark), instances, 0,
+               ReceiverRoom::kWalls, 0.002);
+    EXPECT_EQ(drawRadiance(*baked, change(*baked, room.scene().model().lights[0])), at_rest);
+}
+
+TEST_F(ReceiverDrawTest, aFlatWallShowsTheTexelsOfTheTwin)
+{
+    ReceiverRoom room;
+    room.setSteady({0.3f, 1.7f, 0.9f});
+    room.addLamp(lamp({0.2f, 2, 9}, 0)); // without light, so that the sun of empty scenes is not there
+    const auto baked = load(room.build());
+    pack::ReceiverLight twin(room.tables());
+    twin.update();
+    const formats::ReceiverRectRecord& rect = room.tables().rects[1];
+    const uint32_t word = twin.texels()[size_t{rect.y + 9} * room.tables().atlas.width + rect.x + 9];
+    const Float3 irradiance = shared::decodeSharedExponentWord(word) * room.tables().atlas.scale;
+    const std::vector<Float3> radiance = drawRadiance(*baked);
+    const std::vector<uint32_t> instances = drawInstances(*baked);
+    constexpr Float3 kAlbedo{0.5f, 0.6f, 0.7f};
+    const Float3 expected = irradiance * kAlbedo / std::numbers::pi_v<float>;
+    size_t count = 0;
+    for (size_t i = 0; i < radiance.size(); ++i)
+        for (int c = 0; c < 3 && instances[i] < ReceiverRoom::kWalls; ++c, ++count)
+            EXPECT_NEAR(radiance[i][c], expected[c], 0.002f * expected[c]);
+    EXPECT_GT(count, 1000u);
+}
+
+TEST_F(ReceiverDrawTest, emissionHasTheWeightOfItsLamp)
+{
+    ReceiverRoom room;
+    room.addLamp(lamp({0.2f, 2, 9}, 0));
+    PackModel& model = room.scene().model();
+    model.materials[0].emissive = {0.8f, 0.4f, 0.2f};
+    room.addMeshLamp(ReceiverRoom::kSheet, {1, 1, 1});
+    const auto baked = load(room.build());
+    const std::vector<uint32_t> instances = drawInstances(*baked);
+    const std::vector<Float3> full = drawRadiance(*baked);
+    const Changes off{.weights = {gpu::weighEmission(*baked, ReceiverRoom::kSheet, {0, 0, 0}).value()}};
+    const std::vector<Float3> dark = drawRadiance(*baked, off);
+    const Changes half{
+        .weights = {gpu::weighEmission(*baked, ReceiverRoom::kSheet, {0.5f, 0.5f, 0.5f}).value()}};
+    const std::vector<Float3> dimmed = drawRadiance(*baked, half);
+    expectNear(scaled(difference(dimmed, dark), {2, 2, 2}), difference(full, dark), instances, 0, 4, 0.004);
+    const size_t sheet = static_cast<size_t>(
+        std::find(instances.begin(), instances.end(), ReceiverRoom::kSheet) - instances.begin());
+    EXPECT_NEAR(full[sheet].x - dark[sheet].x, 0.8f, 0.002f);
+}
+
+TEST_F(ReceiverDrawTest, allMethodsDrawOneImage)
+{
+    for (const bool has_shadows : {false, true})
+    {
+        ReceiverRoom room(false);
+        addTwoLamps(room);
+        room.addLamp(sun({0.3f, -1, -0.4f}));
+        room.scene().model().lights[2].intensity = 0.2f;
+        room.scene().addLight(lamp({1, 0.6f, 0}, 0.4f)); // of the game: not baked
+        const auto scene =
+            load(room.build(), {.shadows = {.max_maps = has_shadows ? 8u : 0u, .texels = 256}});
+        Image expected;
+        for (size_t method = gpu::kLightMethodCount; method-- > 0;)
+            ASSERT_TRUE(renderer().prepareLightMethod(*scene, static_cast<gpu::LightMethod>(method)).ok());
+        expected = draw(*scene, kCamera, {.light_method = gpu::LightMethod::all});
+        for (size_t method = 0; method < gpu::kLightMethodCount; ++method)
+        {
+            const gpu::LightMethodFacts& facts = gpu::kLightMethods[method];
+            const Image image =
+                draw(*scene, kCamera, {.light_method = static_cast<gpu::LightMethod>(method)});
+            double sum = 0;
+            int largest = 0;
+            for (size_t i = 0; i < image.color.size(); ++i)
+                for (int c = 0; c < 3; ++c)
+                {
+                    const int off = std::abs(channel(image.color[i], c) - channel(expected.color[i], c));
+                    largest = std::max(largest, off);
+                    sum += off;
+                }
+            EXPECT_TRUE(facts.approximates || largest <= 2) << facts.name;
+            EXPECT_LE(sum / (3.0 * static_cast<double>(image.color.size())), facts.approximates ? 4 : 0.2)
+                << facts.name;
+        }
+    }
+}
+
+TEST_F(ReceiverDrawTest, nothingIsRecordedUnlessAWeightChanges)
+{
+    ReceiverRoom room;
+    addTwoLamps(room);
+    const auto pack = room.build();
+    auto spied = gpu::Renderer::create(spyOnStages(host().description()), {});
+    ASSERT_TRUE(spied.ok());
+    std::unique_ptr<gpu::Scene> scene;
+    ASSERT_TRUE(host()
+                    .run(
+                        [&](VkCommandBuffer commands) -> Status
+                        {
+                            HEARTH_ASSIGN_OR_RETURN(scene, (*spied)->upload(pack, commands));
+                            return success();
+                        })
+                    .ok());
+    auto targets = (*spied)->createTargets({kWidth, kHeight});
+    ASSERT_TRUE(targets.ok());
+    const auto countUpdates = [&](std::span<const gpu::LampWeight> weights)
+    {
+        forgetCommands();
+        const gpu::FrameInput input{.view = makeView(*scene, kCamera, {.width = kWidth, .height = kHeight}),
+                                    .lamp_weights = weights};
+        EXPECT_TRUE(host()
+                        .run(
+                            [&](VkCommandBuffer commands)
+                            {
+                                (*spied)->record(commands, *scene, *targets, input);
+                                return success();
+                            })
+                        .ok());
+        return std::count_if(spiedCommands().begin(), spiedCommands().end(),
+                             [](const SpiedCommand& command) { return command.label == "update receivers"; });
+    };
+    EXPECT_EQ(countUpdates({}), 4) << "a dispatch for each group";
+    EXPECT_EQ(countUpdates({}), 0);
+    const gpu::LampWeight same[] = {gpu::weighLight(*scene, 0, {1, 1, 1}).value()};
+    EXPECT_EQ(countUpdates(same), 0);
+    const gpu::LampWeight dim[] = {gpu::weighLight(*scene, 0, {0.2f, 1, 1}).value()};
+    EXPECT_EQ(countUpdates(dim), 4);
+    EXPECT_EQ(countUpdates({}), 0);
+}
+
+TEST_F(ReceiverDrawTest, weightsThatAreNoneAreErrors)
+{
+    ReceiverRoom room;
+    addTwoLamps(room);
+    const auto scene = load(room.buildLive(), {.max_lights = 2});
+    constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_FALSE(gpu::weighLight(*scene, 2, {1, 1, 1}).ok());
+    EXPECT_FALSE(gpu::weighLight(*scene, 0, {1, -1, 1}).ok());
+    EXPECT_FALSE(gpu::weighLight(*scene, 0, {1, 1, kNaN}).ok());
+    EXPECT_FALSE(gpu::weighEmission(*scene, 0, {1, 1, 1}).ok()) << "the pack has no receivers";
+}
+
+} // namespace hearth::test
