@@ -92,6 +92,8 @@ Status check(const hearth_renderer& renderer, const hearth_frame& frame)
         return usage("constant_sky is neither 0 nor 1");
     if (frame.light_lists > HEARTH_LIGHT_LISTS_CPU)
         return usage("light_lists has a value that this version does not know");
+    if (frame.reserved != 0)
+        return usage("reserved is not 0");
     return checkPost(*renderer.renderer, frame);
 }
 

@@ -34,7 +34,7 @@ public:
     /// Set the weight of an instance's emission, in its row and of its lamp. Returns the row.
     const shared::ReceiverRow& weighEmission(uint32_t instance, Float3 weight);
 
-    /// Take a move of an instance: it has its rectangle where it was baked, and nowhere else. Returns the row.
+    /// Take a move of an instance, which has its rectangle only where it was baked. Returns the row.
     const shared::ReceiverRow& takeMove(uint32_t instance, bool is_at_rest);
 
     /// Return the update groups that a frame is to update, by bits, as if it did; see ReceiverSchedule.

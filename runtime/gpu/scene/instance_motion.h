@@ -18,8 +18,8 @@ struct InstanceMove
 };
 
 /// Compute the table rows. `world_from_object` is finite; it may flip the handedness of the loaded transform.
-/// An instance that moves loses its rectangle of receivers, whose light is that of its place at loading: it is
-/// lit like one without, until it is moved back to exactly where it was. errors: usage.
+/// An instance that moves loses its rectangle of receivers, whose light is that of its place at loading: it
+/// is lit like one without, until it is moved back to exactly where it was. errors: usage.
 Result<InstanceMove> moveInstance(const Scene& scene, uint32_t instance, const Affine3& world_from_object);
 
 /// Write moves to the tables, and to those of receivers.

@@ -406,8 +406,8 @@ void storeDeformation(const formats::PackView& pack, DeformationLayout layout, S
     deformation.layout.words = {};
 }
 
-/// Bind placeholders. In scenes without shadows, table or receivers no shader reads their bindings, but lavapipe (Mesa
-/// 22.3) reads the descriptors, so they must be valid.
+/// Bind placeholders. In scenes without shadows, table or receivers no shader reads their bindings, but
+/// lavapipe (Mesa 22.3) reads the descriptors, so they must be valid.
 void fillSpareBindings(const Device& device, Scene& scene)
 {
     forEachView(scene,

@@ -222,6 +222,17 @@ TEST_F(CPoseTest, gamesAddLightsOfTheirOwn)
     frame.light_lists = HEARTH_LIGHT_LISTS_CPU;
     (void)drawInC(frame);
     EXPECT_EQ(color_, lit);
+    const hearth_lamp_weight off{HEARTH_LAMP_LIGHT, lamp.light, {0, 0, 0}};
+    frame.lamp_weights = &off, frame.lamp_weight_count = 1;
+    (void)drawInC(frame);
+    EXPECT_EQ(color_, dark);
+    frame.lamp_weight_count = 0;
+    (void)drawInC(frame);
+    EXPECT_EQ(color_, dark) << "weights stay";
+    const hearth_lamp_weight on{HEARTH_LAMP_LIGHT, lamp.light, {1, 1, 1}};
+    frame.lamp_weights = &on, frame.lamp_weight_count = 1;
+    (void)drawInC(frame);
+    EXPECT_EQ(color_, lit);
     lamp.intensity = 0;
     (void)drawInC(frame);
     EXPECT_EQ(color_, dark);

@@ -278,7 +278,7 @@ TEST_F(CFrameRulesTest, framesThatBreakRulesAreRefused)
     EXPECT_THAT(refused([](F& f) { f.error_pixels = -1; }), HasSubstr("error_pixels"));
     EXPECT_THAT(refused([](F& f) { f.depth_scale = kNan; }), HasSubstr("depth_scale"));
     EXPECT_THAT(refused([](F& f) { f.cull_flags = 16; }), HasSubstr("cull_flags"));
-    EXPECT_THAT(refused([](F& f) { f.debug_view = 21; }), HasSubstr("debug_view"));
+    EXPECT_THAT(refused([](F& f) { f.debug_view = 22; }), HasSubstr("debug_view"));
     EXPECT_THAT(refused([](F& f) { f.debug_view = HEARTH_VIEW_GI; }), HasSubstr("has bricks"));
     EXPECT_THAT(refused([](F& f) { f.constant_sky = 2; }), HasSubstr("constant_sky"));
     EXPECT_THAT(refused([](F& f) { f.light_lists = 2; }), HasSubstr("light_lists"));
@@ -302,6 +302,15 @@ TEST_F(CFrameRulesTest, framesThatBreakRulesAreRefused)
     EXPECT_THAT(refused([](F& f) { f.light_count = 1; }), HasSubstr("lights is NULL"));
     EXPECT_THAT(refused([&](F& f) { f.lights = &no_light, f.light_count = 1; }), HasSubstr("light 1000"));
     EXPECT_THAT(refused([&](F& f) { f.lights = &no_type, f.light_count = 1; }), HasSubstr("type"));
+    EXPECT_THAT(refused([](F& f) { f.lamp_weight_count = 1; }), HasSubstr("lamp_weights is NULL"));
+    for (const auto& [weight, mention] : std::initializer_list<std::pair<hearth_lamp_weight, const char*>>{
+             {{0, 0, {1, 1, 1}}, "lamp weight 0"},
+             {{HEARTH_LAMP_LIGHT, 1000, {1, 1, 1}}, "light 1000"},
+             {{HEARTH_LAMP_LIGHT, 0, {1, -1, 1}}, "negative"},
+             {{HEARTH_LAMP_EMISSION, 0, {1, 1, 1}}, "no receivers"}})
+        EXPECT_THAT(refused([&](F& f) { f.lamp_weights = &weight, f.lamp_weight_count = 1; }),
+                    HasSubstr(mention));
+    EXPECT_THAT(refused([](F& f) { f.reserved = 1; }), HasSubstr("reserved"));
     EXPECT_THAT(refused([](F& f) { f.emission_count = 1; }), HasSubstr("emissions is NULL"));
     EXPECT_THAT(refused([&](F& f) { f.emissions = &negative, f.emission_count = 1; }),
                 HasSubstr("emission 0"));

@@ -103,6 +103,19 @@ TEST(RenderOptions, ofWhatFollowsTheLightingAreRead)
     expectUsage({"a.hearth", "-o", "a.exr", "--view", "lod"}, "linear colours");
 }
 
+TEST(RenderOptions, weightsOfLampsAreReadByName)
+{
+    const auto options = parse({"a.hearth", "-o", "a.png", "--light", "lamp=0.5", "--light=a=b=0,2,1e1"});
+    ASSERT_TRUE(options.ok()) << formatMessage(options.error());
+    ASSERT_EQ(options->lamps.size(), 2u);
+    EXPECT_EQ(options->lamps[0].name, "lamp");
+    EXPECT_EQ(options->lamps[0].weight, (Float3{0.5f, 0.5f, 0.5f}));
+    EXPECT_EQ(options->lamps[1].name, "a=b");
+    EXPECT_EQ(options->lamps[1].weight, (Float3{0, 2, 10}));
+    for (const char* wrong : {"lamp", "lamp=", "=1", "lamp=-1", "lamp=1,2", "lamp=1,2,3,4", "lamp=nan"})
+        expectUsage({"a.hearth", "-o", "a.png", "--light", wrong}, "--light");
+}
+
 TEST(RenderOptions, takeFourSamplesUnlessToldOtherwise)
 {
     EXPECT_EQ(parse({"a.hearth", "-o", "a.png"})->samples, 4u);
