@@ -106,6 +106,7 @@ enum class IssueClass : uint8_t
       "none needed: a level is drawn while its error is too small to see; extras keep the numbers")          \
     X(receiver_uvs, 1406, warning, "the UVs of a mesh cannot address baked light; it has no receivers",      \
       "give the mesh a second UV set without overlaps, within 0 to 1")                                       \
+    X(probe_enclosed, 1407, malformed, "a probe is inside of a solid", "move the probe into the open")       \
     X(size_outlier, 1410, warning, "a source is much larger or smaller than the others of its cook",         \
       "if its unit is wrong, set import.scale in a rule")                                                    \
     X(profile_syntax, 1500, config, "a file of settings is not valid TOML",                                  \

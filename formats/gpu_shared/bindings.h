@@ -33,7 +33,7 @@ HEARTH_CONSTANT uint kSceneDeformation = 7; ///< slice kDeformationSlice of the 
 HEARTH_CONSTANT uint kSceneLighting = 8;
 HEARTH_CONSTANT uint kSceneShadows = 9; ///< scenes with shadows only; so is the next one
 HEARTH_CONSTANT uint kSceneShadowMaps = 10;
-HEARTH_CONSTANT uint kSceneSpecularTable = 11; ///< one white texel in scenes without a table
+HEARTH_CONSTANT uint kSceneSpecularTable = 11; ///< or white; or the atlas of local_probes.h
 HEARTH_CONSTANT uint kSceneShadingTables = 12; ///< reflectance.h
 HEARTH_CONSTANT uint kSceneReceivers = 13;     ///< atlas of receivers; one white texel in scenes without one
 

@@ -91,9 +91,9 @@ struct Light
     uint passed3;
 };
 
-/// Head of the buffer of lights. Behind it lie the lights, Light[capacity], rows of the sky's image and of
-/// surroundings, and the lists of the frame: LightListCounts, numbers of the lights of the frame, cells and
-/// indices (light_grid.h).
+/// Head of the buffer of lights. Behind it lie the lights, Light[capacity], rows of the sky's image, of
+/// local probes and of surroundings, and the lists of the frame: LightListCounts, numbers of its lights,
+/// cells and indices (light_grid.h).
 struct Lighting
 {
     Float3 sky_zenith; ///< radiance
@@ -114,6 +114,10 @@ struct Lighting
     float receiver_scale; ///< factor of the atlas's texels
     float receiver_width; ///< texels of the atlas
     float receiver_height;
+    uint local_probe_row; ///< row of the first local probe (local_probes.h)
+    uint local_probe_count;
+    uint local_probe_side; ///< texels of an edge of their faces at roughness 0
+    uint local_probe_mips;
     LightGrid grid;
     LightCascade cascades[kLightCascades];
     LightCascade tiles; ///< of the image: one slab, each tile with depths of its own

@@ -4,6 +4,7 @@
 #ifndef HEARTH_SHARED_SKY_H
 #define HEARTH_SHARED_SKY_H
 
+#include "formats/gpu_shared/cube.h"
 #include "formats/gpu_shared/language.h"
 #include "formats/gpu_shared/precision.h"
 
@@ -98,25 +99,15 @@ HEARTH_FUNCTION Float3 sharedExponentColor(uint word)
 
 /// Return the index of the texel of a sky image that a direction is in.
 /// direction  of any length but 0
-/// source     Vulkan 1.3, section "Cube Map Face Selection"
 HEARTH_FUNCTION uint skyImageIndex(Float3 direction)
 {
-    float x = abs(direction.x);
-    float y = abs(direction.y);
-    float z = abs(direction.z);
-    bool is_z = z >= x && z >= y;
-    bool is_y = !is_z && y >= x;
-    float major = is_z ? direction.z : (is_y ? direction.y : direction.x);
-    uint panel = (is_z ? 4u : (is_y ? 2u : 0u)) + (major < 0.0f ? 1u : 0u);
-    float across = is_z ? (major < 0.0f ? -direction.x : direction.x)
-                        : (is_y ? direction.x : (major < 0.0f ? direction.z : -direction.z));
-    float down = is_y ? (major < 0.0f ? -direction.z : direction.z) : -direction.y;
-    float scale = 0.5f * float(kSkyImageSide) / abs(major);
+    CubePlace place = findCubePlace(direction);
+    float scale = 0.5f * float(kSkyImageSide) / place.depth;
     float half_side = 0.5f * float(kSkyImageSide);
     float last = float(kSkyImageSide) - 1.0f;
-    uint column = uint(min(max(across * scale + half_side, 0.0f), last));
-    uint row = uint(min(max(down * scale + half_side, 0.0f), last));
-    return (panel * kSkyImageSide + row) * kSkyImageSide + column;
+    uint column = uint(min(max(place.across * scale + half_side, 0.0f), last));
+    uint row = uint(min(max(place.down * scale + half_side, 0.0f), last));
+    return (place.panel * kSkyImageSide + row) * kSkyImageSide + column;
 }
 
 HEARTH_FUNCTION float skySmoothstep(float from, float to, float x)
@@ -147,32 +138,54 @@ HEARTH_FUNCTION Float3 skyRadiance(HEARTH_IN(Sky) sky, Float3 direction)
     return sky.ground + (above - sky.ground) * skyAbove(direction.y);
 }
 
-/// Return the mean radiance of an image over a cone by its harmonics, at least 0: a cone keeps (1 + c) / 2 of
-/// degree 1 and c (1 + c) / 2 of degree 2. For wide cones, of which the diffuse part is one.
+/// Harmonics of radiance, as shared::evaluateHarmonics.
+struct RadianceHarmonics
+{
+    Half3 constant;
+    Half3 linear_y;
+    Half3 linear_x;
+    Half3 linear_z;
+    Half3 square_y;
+    Half3 product_xy;
+    Half3 product_yz;
+    Half3 product_xz;
+    Half3 difference;
+};
+
+/// Return the mean radiance over a cone by harmonics, at least 0: a cone keeps (1 + c) / 2 of degree 1
+/// and c (1 + c) / 2 of degree 2. For wide cones, of which the diffuse part is one.
 /// axis            as LightCone
 /// cos_half_angle  c, [0, 1]
 /// source          P.-P. Sloan, "Stupid spherical harmonics (SH) tricks", 2008, "Cone light source"
-HEARTH_FUNCTION Half3 skyImageConeRadiance(HEARTH_IN(Sky) sky, Half3 axis, Half cos_half_angle)
+HEARTH_FUNCTION Half3 harmonicConeRadiance(HEARTH_IN(RadianceHarmonics) of, Half3 axis, Half cos_half_angle)
 {
     Half x = axis.x;
     Half y = axis.y;
     Half z = axis.z;
-    Half3 constant = skyImageHarmonic(sky, 0u);
-    Half3 linear_y = skyImageHarmonic(sky, 1u);
-    Half3 linear_x = skyImageHarmonic(sky, 2u);
-    Half3 linear_z = skyImageHarmonic(sky, 3u);
-    Half3 square_y = skyImageHarmonic(sky, 4u);
-    Half3 product_xy = skyImageHarmonic(sky, 5u);
-    Half3 product_yz = skyImageHarmonic(sky, 6u);
-    Half3 product_xz = skyImageHarmonic(sky, 7u);
-    Half3 difference = skyImageHarmonic(sky, 8u);
-    Half3 linear = linear_y * y + linear_x * x + linear_z * z;
-    Half3 quadratic = square_y * (0.28867513f * (2.0f * y * y - x * x - z * z)) + product_xy * (x * y) +
-                      product_yz * (y * z) + product_xz * (x * z) + difference * (0.5f * (x * x - z * z));
+    Half3 linear = of.linear_y * y + of.linear_x * x + of.linear_z * z;
+    Half3 quadratic = of.square_y * (0.28867513f * (2.0f * y * y - x * x - z * z)) + of.product_xy * (x * y) +
+                      of.product_yz * (y * z) + of.product_xz * (x * z) +
+                      of.difference * (0.5f * (x * x - z * z));
     Half first = 0.5f * (1.0f + cos_half_angle);
-    Half3 mean = constant * 0.28209479f + linear * (0.48860251f * first) +
+    Half3 mean = of.constant * 0.28209479f + linear * (0.48860251f * first) +
                  quadratic * (1.09254843f * first * cos_half_angle);
     return Float3(max(mean.x, 0.0f), max(mean.y, 0.0f), max(mean.z, 0.0f));
+}
+
+/// Return the mean radiance of an image over a cone: harmonicConeRadiance.
+HEARTH_FUNCTION Half3 skyImageConeRadiance(HEARTH_IN(Sky) sky, Half3 axis, Half cos_half_angle)
+{
+    RadianceHarmonics harmonics;
+    harmonics.constant = skyImageHarmonic(sky, 0u);
+    harmonics.linear_y = skyImageHarmonic(sky, 1u);
+    harmonics.linear_x = skyImageHarmonic(sky, 2u);
+    harmonics.linear_z = skyImageHarmonic(sky, 3u);
+    harmonics.square_y = skyImageHarmonic(sky, 4u);
+    harmonics.product_xy = skyImageHarmonic(sky, 5u);
+    harmonics.product_yz = skyImageHarmonic(sky, 6u);
+    harmonics.product_xz = skyImageHarmonic(sky, 7u);
+    harmonics.difference = skyImageHarmonic(sky, 8u);
+    return harmonicConeRadiance(harmonics, axis, cos_half_angle);
 }
 
 /// Return the mean radiance of the gradient over a cone.

@@ -25,7 +25,8 @@ HEARTH_CONSTANT uint kConstantLightList = 9; ///< lights that a pixel evaluates,
 HEARTH_CONSTANT uint kConstantStored = 10;
 HEARTH_CONSTANT uint kConstantReflects = 11;  ///< 1: what surrounds lamps gives light back (reflector.h)
 HEARTH_CONSTANT uint kConstantReceivers = 12; ///< 1: the scene has receivers (receivers/receiver_rows.h)
-HEARTH_CONSTANT uint kConstantCount = 13;
+HEARTH_CONSTANT uint kConstantLocalProbes = 13; ///< 1: the scene has local probes (local_probes.h)
+HEARTH_CONSTANT uint kConstantCount = 14;
 
 /// Lights that a pixel evaluates, beside those that every point gets.
 HEARTH_CONSTANT uint kLightListFrame = 0; ///< all of the frame

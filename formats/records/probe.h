@@ -20,7 +20,14 @@ inline constexpr uint32_t kProbeHarmonicValues = 27;
 /// At most one probe has it.
 inline constexpr uint32_t kProbeIsSky = 1;
 
-/// Light of distant surroundings, divided by the luminance of their mean irradiance.
+/// Bit of ProbeRecord::flags: the environment is what a point within the scene sees. All probes that
+/// have it have faces of one size, and as many mips.
+inline constexpr uint32_t kProbeIsLocal = 2;
+
+/// Largest face_size of a local probe: on the GPU it takes 173 KB.
+inline constexpr uint32_t kMaxLocalProbeSide = 64;
+
+/// Light of surroundings, divided by the luminance of their mean irradiance.
 struct ProbeRecord
 {
     uint32_t face_size;
@@ -35,8 +42,22 @@ struct ProbeRecord
     float error;
     Range texels;
     uint32_t sharp_mips;
-    uint32_t reserved[7];
+    // of local probes, world space, metres; 0 of others
+    Float3 position;
+    Float3 box_min;
+    Float3 box_max;
+    Float3 influence_min;
+    Float3 influence_max;
+    float fade;
+    float sky_share[4];
+    uint32_t reserved[3];
 };
+
+/// Return whether a probe is one within the scene.
+constexpr bool isLocalProbe(const ProbeRecord& probe)
+{
+    return (probe.flags & kProbeIsLocal) != 0;
+}
 
 /// Return the roughness of mip 0, 1, ... mip_count - 1 without the sharp ones, from 0 to 1; at least two
 /// mips. A roughness r is found at lod (mip_count - 1) r (2 - r).
@@ -68,12 +89,13 @@ constexpr uint32_t countProbeMips(const ProbeRecord& probe)
 
 } // namespace hearth::formats
 
-HEARTH_RECORD(hearth::formats::ProbeRecord, 192,
+HEARTH_RECORD(hearth::formats::ProbeRecord, 256,
               HEARTH_FIELD(hearth::formats::ProbeRecord, face_size,
                            "texels of an edge of the mip of roughness 0, a power of two"),
               HEARTH_FIELD(hearth::formats::ProbeRecord, mip_count, "from roughness 0 to 1; 2 or more"),
               HEARTH_FIELD(hearth::formats::ProbeRecord, format, "a TexelFormat: rgb9e5"),
-              HEARTH_FIELD(hearth::formats::ProbeRecord, flags, "bit 0: the sky of the scene"),
+              HEARTH_FIELD(hearth::formats::ProbeRecord, flags,
+                           "bit 0: the sky of the scene; bit 1: local, within the scene"),
               HEARTH_FIELD(hearth::formats::ProbeRecord, irradiance,
                            "mean irradiance E_probe of the environment: pi times its mean radiance"),
               HEARTH_FIELD(hearth::formats::ProbeRecord, irradiance_luminance, "Y(E_probe), above 0"),
@@ -89,4 +111,17 @@ HEARTH_RECORD(hearth::formats::ProbeRecord, 192,
                            "of chunk PRTX: mip, face, row, column; sharp mips first"),
               HEARTH_FIELD(hearth::formats::ProbeRecord, sharp_mips,
                            "finer mips than that of roughness 0, for the camera's background"),
+              HEARTH_FIELD(hearth::formats::ProbeRecord, position,
+                           "of a local probe, as the next fields; world space, metres; of others 0"),
+              HEARTH_FIELD(hearth::formats::ProbeRecord, box_min,
+                           "box on which its light is taken to lie, for parallax"),
+              HEARTH_FIELD(hearth::formats::ProbeRecord, box_max, ""),
+              HEARTH_FIELD(hearth::formats::ProbeRecord, influence_min,
+                           "box of the surfaces that it lights: on its faces the weight is 0"),
+              HEARTH_FIELD(hearth::formats::ProbeRecord, influence_max, ""),
+              HEARTH_FIELD(hearth::formats::ProbeRecord, fade,
+                           "distance from those faces at which the weight is 1, above 0"),
+              HEARTH_FIELD(hearth::formats::ProbeRecord, sky_share,
+                           "cosine-weighted share of the sky that it sees about a normal n: "
+                           "dot(xyz, n) + w"),
               HEARTH_FIELD(hearth::formats::ProbeRecord, reserved, "0"));

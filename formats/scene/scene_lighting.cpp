@@ -90,7 +90,8 @@ SceneLighting sceneLighting(std::span<const formats::LightRecord> lights, const 
 {
     SceneLighting lighting{.sky = {kSkyZenith, kSkyHorizon, kSkyGround},
                            .exposure = lightExposure(lights, bounds),
-                           .lights = {}};
+                           .lights = {},
+                           .local_probes = makeLocalProbes(probes.records)};
     for (const formats::LightRecord& record : shadedLights(lights))
         lighting.lights.push_back(lightFromRecord(record));
     if (const std::optional<size_t> i = findSkyProbe(probes.records))

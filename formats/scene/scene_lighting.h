@@ -8,6 +8,7 @@
 #include "formats/records/mesh.h"
 #include "formats/records/probe.h"
 #include "formats/records/scene.h"
+#include "formats/scene/local_probes.h"
 
 #include <memory>
 #include <span>
@@ -23,6 +24,7 @@ struct SceneLighting
     float exposure = 1; ///< of emission
     std::vector<Light> lights;
     std::shared_ptr<const SkyImage> sky_image{}; ///< of the sky, if it has one
+    LocalProbes local_probes{};
 };
 
 /// Return the luminance of a linear colour.
@@ -53,8 +55,9 @@ struct SceneProbes
     std::span<const uint32_t> texels{};
 };
 
-/// Return the exposed lights, the exposure, and the sky: that of the probe of a sky, or the default one. A
-/// scene with neither lights nor the probe of a sky gets one sun; lights beyond kMaxLights are left out.
+/// Return the exposed lights, the exposure, the local probes, and the sky: of its probe, or the default
+/// one. A scene with neither lights nor the probe of a sky gets one sun; lights beyond kMaxLights are left
+/// out.
 SceneLighting sceneLighting(std::span<const formats::LightRecord> lights, const Box3& bounds,
                             const SceneProbes& probes = {});
 

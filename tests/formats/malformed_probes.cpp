@@ -6,6 +6,22 @@
 namespace hearth::test
 {
 
+namespace
+{
+
+/// Make a probe a valid one within the scene.
+void makeLocal(formats::ProbeRecord& probe)
+{
+    probe.flags = formats::kProbeIsLocal;
+    probe.position = {1, 1, 1};
+    probe.box_max = {3, 3, 3};
+    probe.influence_min = {-1, -1, -1};
+    probe.influence_max = {4, 4, 4};
+    probe.fade = 1;
+}
+
+} // namespace
+
 const std::vector<MalformedPack>& malformedProbes()
 {
     static const std::vector<MalformedPack> list = {
@@ -29,9 +45,63 @@ const std::vector<MalformedPack>& malformedProbes()
              p.probe_texels.insert(p.probe_texels.end(), p.probe_texels.begin(), p.probe_texels.end());
          }},
         {"probeFormat", Issue::meaning_value, "probe 0", [](PackModel& p) { p.probes[0].format = 0; }},
-        {"probeFlags", Issue::meaning_padding, "probe 0", [](PackModel& p) { p.probes[0].flags = 2; }},
+        {"probeFlags", Issue::meaning_padding, "probe 0", [](PackModel& p) { p.probes[0].flags = 4; }},
         {"probeReserved", Issue::meaning_padding, "probe 0",
-         [](PackModel& p) { p.probes[0].reserved[6] = 1; }},
+         [](PackModel& p) { p.probes[0].reserved[2] = 1; }},
+        {"probePlaceOfNone", Issue::meaning_padding, "probe 0",
+         [](PackModel& p) { p.probes[0].box_max.y = 1; }},
+        {"probeSkyWithin", Issue::meaning_value, "probe 0",
+         [](PackModel& p)
+         {
+             makeLocal(p.probes[0]);
+             p.probes[0].flags |= formats::kProbeIsSky;
+         }},
+        {"probeLocalTooLarge", Issue::meaning_value, "probe 0",
+         [](PackModel& p)
+         {
+             makeLocal(p.probes[0]);
+             p.probes[0].face_size = 128;
+         }},
+        {"probeLocalSharp", Issue::meaning_value, "probe 0",
+         [](PackModel& p)
+         {
+             makeLocal(p.probes[0]);
+             p.probes[0].sharp_mips = 1;
+         }},
+        {"probeOutsideOfItsBox", Issue::meaning_value, "probe 0",
+         [](PackModel& p)
+         {
+             makeLocal(p.probes[0]);
+             p.probes[0].box_min.x = 2;
+         }},
+        {"probeOutsideOfItsInfluence", Issue::meaning_value, "probe 0",
+         [](PackModel& p)
+         {
+             makeLocal(p.probes[0]);
+             p.probes[0].influence_max.z = 0;
+         }},
+        {"probeWithoutFade", Issue::meaning_value, "probe 0",
+         [](PackModel& p)
+         {
+             makeLocal(p.probes[0]);
+             p.probes[0].fade = 0;
+         }},
+        {"probeSkyShare", Issue::meaning_value, "probe 0",
+         [](PackModel& p)
+         {
+             makeLocal(p.probes[0]);
+             p.probes[0].sky_share[3] = std::numeric_limits<float>::infinity();
+         }},
+        {"probeLocalOfAnotherSize", Issue::meaning_value, "probe 1",
+         [](PackModel& p)
+         {
+             makeLocal(p.probes[0]);
+             formats::ProbeRecord other = p.probes[0];
+             other.face_size = 4;
+             other.texels = {p.probes[0].texels.count, 120};
+             p.probes.push_back(other);
+             p.probe_texels.resize(150);
+         }},
         {"probeIrradiance", Issue::meaning_value, "probe 0",
          [](PackModel& p) { p.probes[0].irradiance.z = -1; }},
         {"probeDark", Issue::meaning_value, "probe 0",
