@@ -46,12 +46,19 @@ struct Source
     TableOffsets offsets{};
 };
 
+/// Light probes of all parts, one behind the other.
+struct ProbeTables
+{
+    std::vector<ProbeRecord> records;
+    std::vector<uint32_t> texels;
+};
+
 /// Open parts of what a pack has once.
 struct OpenPackParts
 {
     std::vector<SpecularTableRecord> specular;
     std::optional<PackView> bricks;
-    std::optional<PackView> probe;
+    ProbeTables probes;
     std::optional<PackView> receivers;
 };
 
@@ -582,17 +589,25 @@ Status copyTables(ContainerWriter& writer, const std::optional<PackView>& part,
     return success();
 }
 
-/// Open the part with the pack's light probe; nullopt if `path` is empty.
-Result<std::optional<PackView>> openProbe(const std::string& path)
+/// Read the parts with the pack's light probes.
+Result<ProbeTables> readProbes(std::span<const std::string> paths)
 {
-    if (path.empty())
-        return std::optional<PackView>();
-    HEARTH_ASSIGN_OR_RETURN(PackView part, openPart(path));
-    HEARTH_TRY(checkProbes(part)); // a failure here names the part
-    if (part.probes().empty())
-        return Error{Issue::chunk_missing, path, chunkName(kChunkProbes, 0),
-                     "this is not a probe part: it has no probe"};
-    return std::optional<PackView>(std::move(part));
+    ProbeTables tables;
+    for (const std::string& path : paths)
+    {
+        HEARTH_ASSIGN_OR_RETURN(PackView part, openPart(path));
+        HEARTH_TRY(checkProbes(part)); // a failure here names the part
+        if (part.probes().empty())
+            return Error{Issue::chunk_missing, path, chunkName(kChunkProbes, 0),
+                         "this is not a probe part: it has no probe"};
+        for (ProbeRecord record : part.probes())
+        {
+            record.texels.first += static_cast<uint32_t>(tables.texels.size());
+            tables.records.push_back(record);
+        }
+        tables.texels.insert(tables.texels.end(), part.probeTexels().begin(), part.probeTexels().end());
+    }
+    return tables;
 }
 
 Result<OpenPackParts> openPackParts(const PackParts& parts)
@@ -600,7 +615,7 @@ Result<OpenPackParts> openPackParts(const PackParts& parts)
     OpenPackParts opened;
     HEARTH_ASSIGN_OR_RETURN(opened.specular, readSpecular(parts.specular));
     HEARTH_ASSIGN_OR_RETURN(opened.bricks, openBricks(parts.bricks));
-    HEARTH_ASSIGN_OR_RETURN(opened.probe, openProbe(parts.probe));
+    HEARTH_ASSIGN_OR_RETURN(opened.probes, readProbes(parts.probes));
     HEARTH_ASSIGN_OR_RETURN(opened.receivers, openReceivers(parts.receivers));
     return opened;
 }
@@ -609,7 +624,10 @@ Status writeReflectionTables(ContainerWriter& writer, const OpenPackParts& parts
 {
     if (!parts.specular.empty())
         HEARTH_TRY(writer.addRecords<SpecularTableRecord>(kChunkSpecular, parts.specular));
-    return copyTables(writer, parts.probe, std::array{kChunkProbes, kChunkProbeTexels});
+    if (parts.probes.records.empty())
+        return success();
+    HEARTH_TRY(writer.addRecords<ProbeRecord>(kChunkProbes, parts.probes.records));
+    return writer.addRecords<uint32_t>(kChunkProbeTexels, parts.probes.texels);
 }
 
 Status writePack(const std::string& path, std::span<const Source> sources, const OpenPackParts& pack_parts,

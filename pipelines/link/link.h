@@ -26,9 +26,9 @@ struct PackParts
     /// Parts with a table of specular occlusion. A pack has one table: all parts must have the same. May
     /// be empty
     std::vector<std::string> specular{};
-    std::string bricks{};    ///< part whose grid of bricks the pack gets; empty: no bricks
-    std::string probe{};     ///< part whose light probe the pack gets; empty: no probe
-    std::string receivers{}; ///< part whose receivers the pack gets; empty: no receivers
+    std::string bricks{};              ///< part whose grid of bricks the pack gets; empty: no bricks
+    std::vector<std::string> probes{}; ///< parts whose light probes the pack gets, in order
+    std::string receivers{};           ///< part whose receivers the pack gets; empty: no receivers
 };
 
 /// Write the pack of all sources, their scenes side by side: the records of each source follow the

@@ -1,5 +1,5 @@
 // hearth-link: merges import, clusters, textures and skinning parts into a pack, with a table of specular
-// occlusion, a light probe, a grid of bricks and receivers.
+// occlusion, light probes, a grid of bricks and receivers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
 #include "formats/base/program.h"
@@ -24,7 +24,8 @@ int program(int argc, char** argv)
     app.addOption("--specular", pack_parts.specular, "specular part, whose table the pack gets; once each")
         .oneValueEach();
     app.addOption("--bricks", pack_parts.bricks, "bricks part, whose grid the pack gets");
-    app.addOption("--probe", pack_parts.probe, "probe part, whose light probe the pack gets");
+    app.addOption("--probe", pack_parts.probes, "probe part, whose light probes the pack gets; once each")
+        .oneValueEach();
     app.addOption("--receivers", pack_parts.receivers, "receivers part, whose atlas the pack gets");
     app.addOption("--skipped", skipped,
                   "JSON with source, code, pointer and text: an error of a source that the pack lacks, which "

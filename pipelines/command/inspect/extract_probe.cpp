@@ -110,13 +110,17 @@ LightPicture layOut(const ProbeMips& probe)
 
 } // namespace
 
-Status extractProbe(const std::string& path, const std::string& output)
+Status extractProbe(const std::string& path, uint32_t index, const std::string& output)
 {
     HEARTH_ASSIGN_OR_RETURN(const PackView file, openContainer(path));
     HEARTH_TRY(checkProbes(file)); // openContainer does not check these chunks of a part
     if (file.probes().empty())
         return Error{Issue::chunk_missing, path, chunkName(kChunkProbes, 0), "the file has no light probe"};
-    const ProbeMips probe = decodeMips(file, file.probes()[0]);
+    if (index >= file.probes().size())
+        return Error{
+            Issue::usage, path, "",
+            fmt::format("there is no probe {}: the last one is {}", index, file.probes().size() - 1)};
+    const ProbeMips probe = decodeMips(file, file.probes()[index]);
     if (isPictureName(output))
         return writePicture(output, layOut(probe), std::numbers::pi);
     if (!output.ends_with(".csv"))

@@ -213,16 +213,25 @@ Json sceneJson(const PackView& pack, const PackSummary& summary)
     const auto probe = [&](uint32_t i) -> Json
     {
         const ProbeRecord& record = pack.probes()[i];
-        return {{"face_size", record.face_size},
-                {"mips", record.mip_count},
-                {"sharp_mips", record.sharp_mips},
-                {"sky", (record.flags & kProbeIsSky) != 0},
-                {"bytes", record.texels.count * sizeof(uint32_t)},
-                {"irradiance", pointJson(record.irradiance)},
-                {"irradiance_luminance", record.irradiance_luminance},
-                {"window", record.window},
-                {"largest", record.largest},
-                {"error", record.error}};
+        Json json{{"face_size", record.face_size},
+                  {"mips", record.mip_count},
+                  {"sharp_mips", record.sharp_mips},
+                  {"sky", (record.flags & kProbeIsSky) != 0},
+                  {"bytes", record.texels.count * sizeof(uint32_t)},
+                  {"irradiance", pointJson(record.irradiance)},
+                  {"irradiance_luminance", record.irradiance_luminance},
+                  {"window", record.window},
+                  {"largest", record.largest},
+                  {"error", record.error}};
+        if (isLocalProbe(record))
+            json["place"] = {{"position", pointJson(record.position)},
+                             {"box_min", pointJson(record.box_min)},
+                             {"box_max", pointJson(record.box_max)},
+                             {"influence_min", pointJson(record.influence_min)},
+                             {"influence_max", pointJson(record.influence_max)},
+                             {"fade", record.fade},
+                             {"sky_share", record.sky_share[3]}};
+        return json;
     };
     return {
         {"nodes", pack.nodes().size()},

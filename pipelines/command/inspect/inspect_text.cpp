@@ -89,16 +89,27 @@ std::string specularText(const PackView& pack)
     return text;
 }
 
+std::string pointText(Float3 point)
+{
+    return fmt::format("({:.4g}, {:.4g}, {:.4g})", point.x, point.y, point.z);
+}
+
 std::string probesText(const PackView& pack)
 {
     std::string text;
     for (const ProbeRecord& probe : pack.probes())
+    {
         text += fmt::format("{:<10} {} x {} texels a face, {} mips, {}; mean irradiance ({:.4g}, {:.4g}, "
                             "{:.4g}), greatest value {:.4g} of its luminance\n",
                             (probe.flags & kProbeIsSky) != 0 ? "sky" : "probe", finestProbeSide(probe),
                             finestProbeSide(probe), countProbeMips(probe),
                             readableSize(probe.texels.count * sizeof(uint32_t)), probe.irradiance.x,
                             probe.irradiance.y, probe.irradiance.z, probe.largest);
+        if (isLocalProbe(probe))
+            text += fmt::format("{:<10} at {}, box {} to {}, lights {} to {}, fades over {:.4g} m\n", "",
+                                pointText(probe.position), pointText(probe.box_min), pointText(probe.box_max),
+                                pointText(probe.influence_min), pointText(probe.influence_max), probe.fade);
+    }
     return text;
 }
 

@@ -28,6 +28,7 @@ void addExtract(cli::CommandLine& app, VerbAction& run)
         std::string animation;
         double time = 0;
         TextureExtraction texture;
+        uint32_t probe = 0;
         std::string texel_format;
         std::string output;
     };
@@ -49,9 +50,9 @@ void addExtract(cli::CommandLine& app, VerbAction& run)
             .excludes(mesh)
             .excludes(part);
     const cli::Option probe =
-        verb.addFlag("--probe",
-                     "instead of a mesh; the light probe: .csv means and extremes of its mips, .exr "
-                     "and .png their faces side by side")
+        verb.addOption("--probe", options->probe,
+                       "instead of a mesh; index of a light probe: .csv means and extremes of its mips, .exr "
+                       "and .png their faces side by side")
             .excludes(mesh)
             .excludes(part)
             .excludes(texture);
@@ -91,7 +92,7 @@ void addExtract(cli::CommandLine& app, VerbAction& run)
                 }
                 if (probe.count() > 0)
                 {
-                    const Status status = extractProbe(options->file, options->output);
+                    const Status status = extractProbe(options->file, options->probe, options->output);
                     return status.ok() ? 0 : printError(status.error());
                 }
                 if (texture.count() > 0)

@@ -49,7 +49,7 @@ protected:
 
     Status link()
     {
-        return link::linkPack(sources, sandbox / "out.hearth", {specular, bricks, probe, receivers});
+        return link::linkPack(sources, sandbox / "out.hearth", {specular, bricks, probes, receivers});
     }
 
     PackView linked()
@@ -64,7 +64,7 @@ protected:
     std::vector<link::SourceParts> sources;
     std::vector<std::string> specular;
     std::string bricks;
-    std::string probe;
+    std::vector<std::string> probes;
     std::string receivers;
 };
 
@@ -338,20 +338,39 @@ TEST_F(LinkPack, takesAProbe)
     addParts(smallPack(), "a");
     EXPECT_TRUE(linked().probes().empty()) << "that of an import part is none";
     PackModel model = smallPack();
-    probe = sandbox / "sky.part";
-    writeProbePart(model, probe);
+    probes = {sandbox / "sky.part"};
+    writeProbePart(model, probes[0]);
     const PackView pack = linked();
     EXPECT_TRUE(sameBytes(pack.probes(), model.probes));
     EXPECT_TRUE(sameBytes(pack.probeTexels(), model.probe_texels));
 
     model.probes[0].window = -1;
-    writeProbePart(model, probe);
+    writeProbePart(model, probes[0]);
     const Status wrong = link();
     ASSERT_FALSE(wrong.ok());
     EXPECT_EQ(wrong.error().issue, Issue::meaning_value);
-    EXPECT_EQ(wrong.error().file, probe);
-    writeSpecularPart(model, probe);
+    EXPECT_EQ(wrong.error().file, probes[0]);
+    writeSpecularPart(model, probes[0]);
     EXPECT_EQ(link().error().issue, Issue::chunk_missing);
+}
+
+TEST_F(LinkPack, joinsTheProbesOfParts)
+{
+    addParts(smallPack(), "a");
+    PackModel model = smallPack();
+    probes = {sandbox / "sky.part", sandbox / "rooms.part"};
+    writeProbePart(model, probes[0]);
+    const std::vector<uint32_t> sky = model.probe_texels;
+    model.probe_texels[3] += 5;
+    model.probes[0].irradiance.x = 4;
+    writeProbePart(model, probes[1]);
+    const PackView pack = linked();
+    ASSERT_EQ(pack.probes().size(), 2u);
+    EXPECT_EQ(pack.probes()[0].irradiance.x, 3);
+    EXPECT_EQ(pack.probes()[1].irradiance.x, 4);
+    ASSERT_EQ(pack.probeTexels().size(), 2 * sky.size());
+    EXPECT_EQ(pack.probes()[1].texels.first, sky.size());
+    EXPECT_EQ(pack.probeTexels()[sky.size() + 3], sky[3] + 5);
 }
 
 TEST_F(LinkPack, refusesAWrongTableOfSpecularOcclusion)

@@ -32,7 +32,7 @@ protected:
 
     std::string extract(const std::string& name)
     {
-        const Status status = command::extractProbe(sandbox / "small.hearth", sandbox / name);
+        const Status status = command::extractProbe(sandbox / "small.hearth", 0, sandbox / name);
         EXPECT_TRUE(status.ok()) << (status.ok() ? "" : formatMessage(status.error()));
         return sandbox.read(name);
     }
@@ -125,15 +125,17 @@ TEST_F(ExtractProbe, writesAPictureAsPng)
 
 TEST_F(ExtractProbe, refusesOtherFiles)
 {
-    const auto expectIssue = [&](const std::string& input, const std::string& output, Issue issue)
+    const auto expectIssue =
+        [&](const std::string& input, const std::string& output, Issue issue, uint32_t index = 0)
     {
-        const Status status = command::extractProbe(sandbox / input, sandbox / output);
+        const Status status = command::extractProbe(sandbox / input, index, sandbox / output);
         ASSERT_FALSE(status.ok());
         EXPECT_EQ(status.error().issue, issue);
         EXPECT_FALSE(sandbox.has(output));
     };
     expectIssue("small.hearth", "probe.jpg", Issue::usage);
     expectIssue("none.hearth", "probe.csv", Issue::input_missing);
+    expectIssue("small.hearth", "probe.csv", Issue::usage, 1);
     PackModel model = smallPack();
     model.probes.clear();
     model.probe_texels.clear();
