@@ -161,7 +161,7 @@ HEARTH_SHARED_END
 static_assert(sizeof(hearth::shared::Material) == 224);
 static_assert(sizeof(hearth::shared::MaterialLayers) == 176);
 static_assert(sizeof(hearth::shared::Light) == 96);
-static_assert(sizeof(hearth::shared::Lighting) == 96 + 112 + 64 * (hearth::shared::kLightCascades + 1));
+static_assert(sizeof(hearth::shared::Lighting) == 112 + 112 + 64 * (hearth::shared::kLightCascades + 1));
 #endif
 
 #endif

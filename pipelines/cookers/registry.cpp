@@ -20,6 +20,7 @@ Cooker describeSpecular();
 Cooker describeProbe();
 Cooker describeBricks();
 Cooker describeReceivers();
+Cooker describeReflections();
 Cooker describeLink();
 
 namespace
@@ -32,9 +33,9 @@ using settings::Values;
 std::vector<Cooker> makeCookers()
 {
     std::vector<Cooker> cookers{
-        describeImport(), describeClusters(), describeTextures(),   describeEstimates(),  describeBudget(),
-        describeTexels(), describeSkinning(), describeNeighbours(), describeVisibility(), describeSpecular(),
-        describeProbe(),  describeBricks(),   describeReceivers(),  describeLink()};
+        describeImport(), describeClusters(), describeTextures(),   describeEstimates(),   describeBudget(),
+        describeTexels(), describeSkinning(), describeNeighbours(), describeVisibility(),  describeSpecular(),
+        describeProbe(),  describeBricks(),   describeReceivers(),  describeReflections(), describeLink()};
     for (Cooker& cooker : cookers)
         for (Setting& setting : cooker.settings)
             setting.scope = cooker.scope;

@@ -102,6 +102,14 @@ const std::vector<Layer>& layers()
          {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/bricks/voxels",
           "cook/receivers/bake", "cook/receivers/scene", "cook/receivers/select"}},
 
+        {"cook/reflections/place", {"formats"}},
+        {"cook/reflections/capture",
+         {"formats", "cook/environment", "cook/sampling", "cook/ray_scene", "cook/bricks/voxels",
+          "cook/bricks/light", "cook/receivers/bake"}},
+        {"cook/reflections/program",
+         {"formats", "cook/command_line", "cook/tools", "cook/environment", "cook/probes",
+          "cook/bricks/voxels", "cook/bricks/light", "cook/reflections/place", "cook/reflections/capture"}},
+
         {"cook/visibility/mesh", {"formats", "cook/mesh"}},
         {"cook/visibility/rays", {"formats", "cook/sampling", "cook/visibility/mesh"}},
         {"cook/visibility/light",
@@ -144,7 +152,7 @@ const std::vector<Layer>& layers()
         {"pipelines/settings", {"formats", "cook/json", "cook/tools", "pipelines/cache"}},
         {"pipelines/cookers",
          {"formats", "cook/textures", "cook/clusters/core", "cook/clusters/program", "cook/texels/rules",
-          "pipelines/settings"}},
+          "cook/reflections/place", "pipelines/settings"}},
         {"pipelines/graph",
          {"formats", "cook/json", "cook/tools", "pipelines/cache", "pipelines/settings",
           "pipelines/cookers"}},

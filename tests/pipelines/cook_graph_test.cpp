@@ -146,6 +146,25 @@ TEST(CookGraph, bakesReceiversUnderTheProbeOfTheSky)
                                       "{receivers.part}", "-o", "{pack.hearth}"}));
 }
 
+TEST(CookGraph, linksTheProbesOfTheSkyAndOfTheScene)
+{
+    CookSettings settings;
+    settings.sources = {"a.obj"};
+    settings.output = "out.hearth";
+    settings.values_of_pack = {{"bricks.mode", {"\"off\"", ""}},
+                               {"environment.file", {"\"noon.hdr\"", ""}},
+                               {"reflections.probes", {"[\"1,2,3\",\"4,5,6\"]", ""}}};
+    settings.values_of_source.assign(1, {{"visibility.mode", {"\"off\"", ""}}});
+    const std::vector<Words> commands = getCommands(makeCookGraph(settings).value());
+    EXPECT_EQ(
+        commands.at(commands.size() - 2),
+        (Words{"bin/hearth-reflections", "{import.part}", "{clusters.part}", "{textures.part}", "--probe",
+               "{probe.part}", "-o", "{reflections.part}", "--at", "1,2,3", "--at", "4,5,6"}));
+    EXPECT_EQ(commands.back(), (Words{"bin/hearth-link", "{import.part}", "{clusters.part}", "{texels.part}",
+                                      "{skinning.part}", "--probe", "{probe.part}", "--probe",
+                                      "{reflections.part}", "-o", "{pack.hearth}"}));
+}
+
 TEST(CookGraph, passesSettingsToEveryCooker)
 {
     const std::vector<Words> commands = getCommands(makeCookGraph(allSettings()).value());

@@ -65,7 +65,7 @@ protected:
             folder.write(name, name);
         for (const char* cooker :
              {"import", "textures", "estimates", "budget", "texels", "clusters", "skinning", "neighbours",
-              "visibility", "specular", "probe", "bricks", "receivers", "link"})
+              "visibility", "specular", "probe", "bricks", "receivers", "reflections", "link"})
             folder.write(std::string("hearth-") + cooker, cooker, true);
     }
 

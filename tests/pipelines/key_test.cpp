@@ -133,9 +133,9 @@ protected:
     Sandbox folder;
 };
 
-const std::set<std::string> kOfSource{"import", "textures",  "estimates", "budget",
-                                      "texels", "clusters",  "skinning",  "visibility",
-                                      "bricks", "receivers", "link"};
+const std::set<std::string> kOfSource{"import", "textures",  "estimates",   "budget",
+                                      "texels", "clusters",  "skinning",    "visibility",
+                                      "bricks", "receivers", "reflections", "link"};
 
 } // namespace
 
@@ -163,7 +163,7 @@ TEST_F(Keys, everyParameterChangesThem)
              s.lods_of_source.emplace_back();
          },
          {"import", "textures", "estimates", "budget", "texels", "clusters", "skinning", "neighbours",
-          "visibility", "bricks", "receivers", "link"}},
+          "visibility", "bricks", "receivers", "reflections", "link"}},
         {"no lod", [](CookSettings& s) { s.lods_of_source.clear(); }, kOfSource},
         {"another level", [&](CookSettings& s) { s.lods_of_source = {{"2=" + low}}; }, kOfSource},
         {"another lod", [&](CookSettings& s) { s.lods_of_source = {{"1=" + s.sources[0]}}; }, kOfSource},
@@ -184,13 +184,15 @@ TEST_F(Keys, everySettingChangesThoseOfItsCookerAndItsReaders)
     const auto before = keys(settings);
     const std::map<std::string, std::set<std::string>> readers{
         {"import", kOfSource},
-        {"clusters", {"clusters", "skinning", "visibility", "bricks", "receivers", "link"}},
-        {"textures", {"textures", "estimates", "budget", "texels", "bricks", "receivers", "link"}},
+        {"clusters", {"clusters", "skinning", "visibility", "bricks", "receivers", "reflections", "link"}},
+        {"textures",
+         {"textures", "estimates", "budget", "texels", "bricks", "receivers", "reflections", "link"}},
         {"texels", {"estimates", "budget", "texels", "link"}},
         {"visibility", {"visibility", "link"}},
-        {"probe", {"probe", "bricks", "receivers", "link"}},
+        {"probe", {"probe", "bricks", "receivers", "reflections", "link"}},
         {"bricks", {"bricks", "link"}},
-        {"receivers", {"receivers", "link"}}};
+        {"receivers", {"receivers", "link"}},
+        {"reflections", {"reflections", "link"}}};
     for (const cookers::Cooker& cooker : cookers::allCookers())
         for (const settings::Setting& setting : cooker.settings)
         {
@@ -224,7 +226,7 @@ TEST_F(Keys, flagsAddTheirCookers)
     other.values_of_source[0]["visibility.mode"].text = "\"off\"";
     EXPECT_EQ(changed(before, keys(other)),
               (std::set<std::string>{"clusters", "skinning", "visibility", "specular", "bricks", "receivers",
-                                     "link"}));
+                                     "reflections", "link"}));
     other = settings;
     other.values_of_pack["bricks.mode"].text = "\"off\"";
     EXPECT_EQ(changed(before, keys(other)), (std::set<std::string>{"bricks", "link"}));
@@ -233,7 +235,11 @@ TEST_F(Keys, flagsAddTheirCookers)
     EXPECT_EQ(changed(before, keys(other)), kOfSource) << "import makes UVs for them";
     other = settings;
     other.values_of_pack["environment.file"].text = "\"off\"";
-    EXPECT_EQ(changed(before, keys(other)), (std::set<std::string>{"probe", "bricks", "receivers", "link"}));
+    EXPECT_EQ(changed(before, keys(other)),
+              (std::set<std::string>{"probe", "bricks", "receivers", "reflections", "link"}));
+    other = settings;
+    other.values_of_pack["reflections.probes"].text = "[]";
+    EXPECT_EQ(changed(before, keys(other)), (std::set<std::string>{"reflections", "link"}));
     other = settings;
     other.values_of_pack.erase("textures.budget");
     EXPECT_EQ(changed(before, keys(other)), (std::set<std::string>{"estimates", "budget", "link"}));
@@ -254,7 +260,7 @@ TEST_F(Keys, everyFileChangesThem)
     folder.write("hearth-skinning", "skinning", true);
     folder.write("sky.hdr", "another sky");
     EXPECT_EQ(changed(before, keys(settings)),
-              (std::set<std::string>{"probe", "bricks", "receivers", "link"}));
+              (std::set<std::string>{"probe", "bricks", "receivers", "reflections", "link"}));
     fs::rename(folder / "wood.png", folder / "wool.png");
     folder.write("sky.hdr", "sky.hdr");
     EXPECT_EQ(changed(before, keys(settings)), kOfSource) << "a file that is gone";

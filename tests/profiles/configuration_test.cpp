@@ -255,7 +255,8 @@ TEST(Arguments, giveEachCookerItsOwnSettings)
         "bricks.mode = 'on'\nbricks.voxel_size = 0.5\n"
         "bricks.memory = '1M'\nenvironment.file = 'sky.hdr'\n"
         "receivers.mode = 'on'\nreceivers.texels_per_metre = 8\nreceivers.lights = 3\n"
-        "receivers.codec = 'rgbm'\nreceivers.bounces = 2\n",
+        "receivers.codec = 'rgbm'\nreceivers.bounces = 2\n"
+        "reflections.probes = ['1,2,3', '1,1,1:0,0,0:4,3,5:0.5']\nreflections.face_size = 32\n",
         "house.toml");
     ASSERT_TRUE(profile.ok()) << formatMessage(profile.error());
     const settings::Values& values = profile->values;
@@ -272,6 +273,8 @@ TEST(Arguments, giveEachCookerItsOwnSettings)
     EXPECT_EQ(wordsFor("bricks", values), (Words{"--voxel-size", "0.5", "--memory", "1048576"}));
     EXPECT_EQ(wordsFor("receivers", values),
               (Words{"--texels-per-metre", "8", "--lights", "3", "--codec", "rgbm", "--bounces", "2"}));
+    EXPECT_EQ(wordsFor("reflections", values),
+              (Words{"--at", "1,2,3", "--at", "1,1,1:0,0,0:4,3,5:0.5", "--face-size", "32"}));
     const std::vector<settings::Values> sources{values};
     for (const cookers::Cooker& cooker : cookers::allCookers())
         EXPECT_TRUE(cookers::isEnabled(cooker, values, sources)) << cooker.name;
@@ -286,6 +289,7 @@ TEST(Arguments, omitUnsetSettings)
     EXPECT_EQ(wordsFor("receivers", {}), Words());
     EXPECT_FALSE(cookers::isEnabled(*cookers::findCooker("probe"), {}, {}));
     EXPECT_FALSE(cookers::isEnabled(*cookers::findCooker("receivers"), {}, {}));
+    EXPECT_FALSE(cookers::isEnabled(*cookers::findCooker("reflections"), {}, {}));
     const settings::Values off{{"visibility.mode", {"\"off\"", ""}}, {"bricks.mode", {"\"off\"", ""}}};
     EXPECT_EQ(wordsFor("clusters", off), Words{"--no-discrete-lods"});
     const std::vector<settings::Values> plain_sources(1), sources_off{off};

@@ -148,7 +148,7 @@ TEST(PageData, saysWhichSettingsMakeEachCookerCheaper)
     EXPECT_EQ((*quality)[2], "draft takes fewer rays");
     for (const auto& [cooker, list] : savings.items())
         EXPECT_TRUE(std::set<std::string>({"import", "textures", "texels", "clusters", "visibility", "probe",
-                                           "bricks", "receivers"})
+                                           "bricks", "receivers", "reflections"})
                         .contains(cooker))
             << cooker << " runs in no cook";
     EXPECT_EQ(savings.size(), 8u) << savings;

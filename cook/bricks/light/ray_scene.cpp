@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/light/ray_scene.h"
 
+#include "cook/bricks/light/opaque_clusters.h"
 #include "cook/ray_scene/triangle_rays.h"
 #include "cook/sampling/maps.h"
 #include "cook/sampling/owen_sobol.h"
@@ -63,31 +64,14 @@ Status readTriangles(const StaticScene& scene, std::span<const InstancedCluster>
                      const GridFrame& frame, std::vector<MaterialRange>& materials,
                      std::vector<Float3>& corners, std::vector<Float3>* normals)
 {
-    std::vector<std::byte> page;
-    uint32_t page_source = kInvalidIndex, page_number = kInvalidIndex;
-    for (const InstancedCluster& at : placed)
-    {
-        const PackView& part = scene.sources[at.source].clusters;
-        const ClusterRecord& record = part.clusters()[at.cluster];
-        const SurfaceMaterial& material = scene.material(at.source, record.material);
-        if (material.hasHoles())
-            continue;
-        if (at.source != page_source || at.page != page_number)
+    return visitOpaqueClusters(
+        scene, placed,
+        [&](const StaticInstance& instance, const ClusterGeometry& geometry, const SurfaceMaterial& material)
         {
-            HEARTH_ASSIGN_OR_RETURN(page, part.decodePage(at.page));
-            page_source = at.source;
-            page_number = at.page;
-        }
-        const StaticInstance& instance = scene.instances[at.instance];
-        const auto geometry = ClusterGeometry::at(page, record, part.meshes()[instance.mesh]);
-        if (!geometry)
-            return Error{Issue::meaning_geometry, part.name(), "cluster " + std::to_string(at.cluster),
-                         "lies outside its page"};
-        materials.push_back({static_cast<uint32_t>(corners.size() / 3), &material, meanAlbedo(material)});
-        addTriangles(*geometry, voxelsFromObject(frame, instance.world_from_object), instance.mirrored,
-                     corners, normals);
-    }
-    return success();
+            materials.push_back({static_cast<uint32_t>(corners.size() / 3), &material, meanAlbedo(material)});
+            addTriangles(geometry, voxelsFromObject(frame, instance.world_from_object), instance.mirrored,
+                         corners, normals);
+        });
 }
 
 } // namespace

@@ -74,7 +74,8 @@ Float3 unshadowedLight(const Lamp& lamp, const ReceivingPoint& at)
     return light.intensity * share;
 }
 
-DirectLight::DirectLight(const BakeScene& scene, const BakeRays& rays) : scene_(scene), rays_(rays)
+DirectLight::DirectLight(const BakeScene& scene, const BakeRays& rays, uint32_t mesh_light_rays)
+    : scene_(scene), rays_(rays), mesh_light_rays_(mesh_light_rays)
 {
     for (const MeshLight& light : scene.mesh_lights)
     {
@@ -96,7 +97,7 @@ Float3 DirectLight::at(size_t light, const ReceivingPoint& point, uint64_t seed,
         return fromLamp(scene_.lamps[light], point, own_seed, ray_count);
     const size_t number = light - scene_.lamps.size();
     const MeshLight& mesh_light = scene_.mesh_lights[number];
-    return mesh_light.triangles.size() <= kMeshLightRays
+    return mesh_light.triangles.size() <= mesh_light_rays_
                ? fromFewTriangles(mesh_light, point, own_seed, ray_count)
                : fromManyTriangles(mesh_light, sources_[number], point, own_seed, ray_count);
 }
@@ -149,7 +150,7 @@ Float3 DirectLight::fromFewTriangles(const MeshLight& light, const ReceivingPoin
                                      uint64_t& ray_count) const
 {
     const auto count = static_cast<uint32_t>(light.triangles.size());
-    const uint32_t rays = (kMeshLightRays + count - 1) / std::max(count, 1u);
+    const uint32_t rays = (mesh_light_rays_ + count - 1) / std::max(count, 1u);
     Float3 sum;
     for (uint32_t t = 0; t < count; ++t)
     {
@@ -190,11 +191,11 @@ Float3 DirectLight::fromManyTriangles(const MeshLight& light, const Source& sour
     if (!(power > 0))
         return {};
     Float3 sum;
-    for (uint32_t i = 0; i < kMeshLightRays; ++i)
+    for (uint32_t i = 0; i < mesh_light_rays_; ++i)
     {
         const double choice =
             (i + double{sampling::unitFloat(sampling::owenSobol(i, sampling::deriveSeed(seed, 0)).x)}) /
-            kMeshLightRays;
+            mesh_light_rays_;
         const auto found = std::ranges::upper_bound(source.powers, power * choice);
         const auto t =
             static_cast<size_t>(std::min(found, std::prev(source.powers.end())) - source.powers.begin());
@@ -207,7 +208,7 @@ Float3 DirectLight::fromManyTriangles(const MeshLight& light, const Source& sour
         if (!(facing > 0) || dot(offset, point.side) <= 0 || !shinesTo(triangle, point.position))
             continue;
         const float leaving = std::abs(dot(normalizeOr(crossEdges(triangle), {}), offset));
-        const auto area = static_cast<float>(power / kMeshLightRays) / shared::luminance(light.radiance[t]);
+        const auto area = static_cast<float>(power / mesh_light_rays_) / shared::luminance(light.radiance[t]);
         ++ray_count;
         if (sees(point, triangle, target))
             sum += light.radiance[t] *

@@ -9,7 +9,7 @@ namespace hearth::receivers
 {
 
 inline constexpr uint32_t kSphereRays = 16;    ///< shadow rays to a lamp with a radius
-inline constexpr uint32_t kMeshLightRays = 32; ///< shadow rays to a mesh light, at least
+inline constexpr uint32_t kMeshLightRays = 32; ///< of a bake: shadow rays to a mesh light, at least
 
 /// Place from which a surface receives light.
 struct ReceivingPoint
@@ -37,7 +37,8 @@ Float3 unshadowedLight(const Lamp& lamp, const ReceivingPoint& at);
 class DirectLight
 {
 public:
-    DirectLight(const BakeScene& scene, const BakeRays& rays);
+    /// mesh_light_rays  shadow rays to a mesh light, at least; 1 or more
+    DirectLight(const BakeScene& scene, const BakeRays& rays, uint32_t mesh_light_rays = kMeshLightRays);
 
     /// Return the irradiance that a light of the scene causes.
     /// seed       of the point
@@ -61,6 +62,7 @@ private:
 
     const BakeScene& scene_;
     const BakeRays& rays_;
+    uint32_t mesh_light_rays_;
     std::vector<Source> sources_; ///< of mesh lights
 };
 

@@ -1,0 +1,37 @@
+// Light that reaches a point from a direction, by paths: emission, sky, lamps with their shadows, and
+// diffuse bounces. Reflections count as diffuse light, as for bricks.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/reflections/capture/surfaces.h"
+#include "formats/scene/scene_lighting.h"
+
+namespace hearth::reflections
+{
+
+/// Paths that go on from a point which a ray from the probe meets.
+inline constexpr uint32_t kPathsOfHit = 8;
+
+/// Light of a scene. Use from many threads; the surfaces must outlive it.
+class PathLight
+{
+public:
+    PathLight(const Surfaces& surfaces, const shared::SceneLighting& lighting);
+
+    /// Return the radiance that a surface sends back along a ray, exposed.
+    /// footprint  metres of the surface that the ray stands for
+    /// seed       of the ray
+    Float3 leaving(const SurfaceHit& hit, float footprint, uint64_t seed) const;
+
+private:
+    Float3 arriving(SurfaceHit from, uint32_t path, uint64_t seed) const;
+    Float3 direct(const receivers::DirectLight& light, const SurfaceHit& hit, uint64_t seed) const;
+
+    const Surfaces& surfaces_;
+    shared::SceneLighting lighting_;
+    receivers::BakeScene lights_;  ///< lamps, and one mesh light of all triangles that shine
+    receivers::DirectLight first_; ///< at what the probe sees
+    receivers::DirectLight later_; ///< at later bounces: one ray for all triangles
+};
+
+} // namespace hearth::reflections
