@@ -53,12 +53,15 @@ void writeSkyImage(const shared::SkyImage& image, std::span<std::byte> rows)
 
 } // namespace
 
-LightBufferLayout LightBufferLayout::make(uint32_t capacity, bool has_sky_image, uint64_t surroundings_rows,
-                                          uint64_t receiver_rows)
+LightBufferLayout LightBufferLayout::make(uint32_t capacity, const shared::SceneLighting& lighting,
+                                          uint64_t surroundings_rows, uint64_t receiver_rows)
 {
     LightBufferLayout layout{.capacity = capacity, .index_words = indexWords(capacity)};
     layout.sky_image = layout.light(capacity);
-    layout.surroundings = layout.sky_image + (has_sky_image ? shared::kSkyImageRows : 0) * kRowBytes;
+    layout.local_probes =
+        layout.sky_image + (lighting.sky.image != nullptr ? shared::kSkyImageRows : 0) * kRowBytes;
+    layout.surroundings =
+        layout.local_probes + lighting.local_probes.tables.size() * shared::kLocalProbeRows * kRowBytes;
     layout.receivers = layout.surroundings + surroundings_rows * kRowBytes;
     layout.lists = layout.receivers + receiver_rows * kRowBytes;
     layout.cells = layout.lists + sizeof(shared::LightListCounts) + VkDeviceSize{capacity} * sizeof(uint32_t);
@@ -82,6 +85,10 @@ SceneLights::SceneLights(const LightBufferLayout& layout, shared::SceneLighting 
     head_.sky_image_row = lighting_.sky.image == nullptr
                               ? shared::kNoSkyImage
                               : static_cast<uint32_t>(layout_.sky_image / kRowBytes);
+    head_.local_probe_row = static_cast<uint32_t>(layout_.local_probes / kRowBytes);
+    head_.local_probe_count = static_cast<uint32_t>(lighting_.local_probes.tables.size());
+    head_.local_probe_side = lighting_.local_probes.side;
+    head_.local_probe_mips = lighting_.local_probes.mip_count;
     head_.exposure = lighting_.exposure;
     head_.light_count = static_cast<uint32_t>(lighting_.lights.size());
     const auto word = [](VkDeviceSize bytes) { return static_cast<uint32_t>(bytes / sizeof(uint32_t)); };
@@ -107,6 +114,8 @@ void SceneLights::fill(MirroredTable& table, std::span<const std::byte> surround
     }
     if (const shared::SkyImage* image = lighting_.sky.image; image != nullptr)
         writeSkyImage(*image, std::span(bytes).subspan(static_cast<size_t>(layout_.sky_image)));
+    const auto probes = std::as_bytes(std::span(lighting_.local_probes.tables));
+    std::ranges::copy(probes, bytes.begin() + static_cast<ptrdiff_t>(layout_.local_probes));
     if (!surroundings.empty())
         std::memcpy(bytes.data() + layout_.surroundings, surroundings.data(), surroundings.size());
     if (!receivers.empty())

@@ -28,6 +28,7 @@ struct LightBufferLayout
     uint32_t capacity = 0;    ///< slots of lights
     uint32_t index_words = 0; ///< room for indices
     VkDeviceSize sky_image = 0;
+    VkDeviceSize local_probes = 0;
     VkDeviceSize surroundings = 0;
     VkDeviceSize receivers = 0; ///< shared::ReceiverRow of each instance; none in scenes without receivers
     VkDeviceSize lists = 0;     ///< the parts before it are the table, those after it are the frame's
@@ -36,9 +37,10 @@ struct LightBufferLayout
     VkDeviceSize in_view = 0; ///< shared::CellLight of the ranged lights of the frame; passes of the device
     VkDeviceSize end = 0;
 
+    /// lighting           its sky and its local probes have rows
     /// surroundings_rows  of 16 bytes, as receiver_rows
-    static LightBufferLayout make(uint32_t capacity, bool has_sky_image, uint64_t surroundings_rows,
-                                  uint64_t receiver_rows = 0);
+    static LightBufferLayout make(uint32_t capacity, const shared::SceneLighting& lighting,
+                                  uint64_t surroundings_rows, uint64_t receiver_rows = 0);
     VkDeviceSize light(uint32_t slot) const
     {
         return sizeof(shared::Lighting) + VkDeviceSize{slot} * sizeof(shared::Light);
@@ -58,8 +60,8 @@ public:
     /// Lights of the pack as loaded, in the first slots.
     std::span<const shared::Light> loaded() const { return loaded_; }
 
-    /// Set the content of the table, with the rows of the sky's image, of surroundings and of receivers
-    /// behind the lights.
+    /// Set the content of the table, with the rows of the sky's image, of local probes, of surroundings and
+    /// of receivers behind the lights.
     /// transfer_rows  of `surroundings`, before those of instances; all of them if the scene has none
     void fill(MirroredTable& table, std::span<const std::byte> surroundings, uint64_t transfer_rows,
               bool has_surroundings, std::span<const std::byte> receivers = {});

@@ -119,6 +119,7 @@ DrawConstants ShadingPass::drawConstants(const ShadingVariant& variant, bool res
     constants[shared::kConstantUnlit] = variant.unlit;
     constants[shared::kConstantSkyVisibility] = variant.sky_visibility;
     constants[shared::kConstantLayers] = variant.layers;
+    constants[shared::kConstantLocalProbes] = variant.local_probes;
     constants[shared::kConstantLightList] = variant.light_list;
     constants[shared::kConstantReceivers] = variant.receivers;
     return constants;

@@ -97,6 +97,7 @@ struct ShadingVariant
     uint32_t sky_visibility = 0;  ///< 1: used by meshes with sky visibility
     uint32_t bricks = 0;          ///< 1: the scene has bricks
     uint32_t receivers = 0;       ///< 1: the scene has receivers
+    uint32_t local_probes = 0;    ///< 1: the scene has local probes
     uint32_t light_list = shared::kLightListCells;
     friend auto operator<=>(const ShadingVariant&, const ShadingVariant&) = default;
 };
@@ -167,7 +168,8 @@ struct Scene
     uint32_t used_slices = shared::kPoolSlices; ///< 1 if the first slice holds all geometry
     Image shading_tables;                       ///< formats/gpu_shared/reflectance.h has their places
     Image sky_cube;                             ///< black if the sky has no image
-    Image specular_table;                       ///< empty if the pack has none
+    Image probe_atlas;                          ///< empty if the pack has no local probes
+    Image specular_table;                       ///< empty if the pack has none, or has local probes
     uint32_t specular_spacing = 0;              ///< shared::kSpecularSpacing* of the table
     std::unique_ptr<SceneLights> lights;
     uint32_t dropped_lights = 0; ///< lights of the pack beyond shared::kMaxLights

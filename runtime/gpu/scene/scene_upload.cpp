@@ -393,6 +393,14 @@ void findSkyVisibility(const formats::PackView& pack, Scene& scene)
                 scene.materials[materialRow(pack, cluster.material)].variant.sky_visibility = 1;
 }
 
+/// Mark all materials of a scene with local probes.
+void findLocalProbes(const formats::PackView& pack, Scene& scene)
+{
+    if (std::ranges::any_of(pack.probes(), formats::isLocalProbe))
+        for (SceneMaterial& material : scene.materials)
+            material.variant.local_probes = 1;
+}
+
 /// Keep the parts of the layout that frames need, and mark the materials that deformed meshes use.
 void storeDeformation(const formats::PackView& pack, DeformationLayout layout, Scene& scene)
 {
@@ -468,7 +476,7 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
     const auto slots = static_cast<uint32_t>(
         std::clamp<size_t>(options.max_lights, lighting.lights.size(), shared::kMaxLights));
     scene->lights = std::make_unique<SceneLights>(
-        LightBufferLayout::make(slots, lighting.sky.image != nullptr, SceneSurroundings::countRows(pack),
+        LightBufferLayout::make(slots, lighting, SceneSurroundings::countRows(pack),
                                 pack.receiverAtlases().empty() ? 0 : pack.instances().size()),
         std::move(lighting));
     if (!layout.deformation.words.empty())
@@ -480,6 +488,7 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
     HEARTH_TRY(uploadGeometry(pack, layout, *scene->staging, *scene));
     HEARTH_TRY(uploadMaterials(device, layouts, pack, *scene->staging, *scene));
     findSkyVisibility(pack, *scene);
+    findLocalProbes(pack, *scene);
     fillSpareBindings(device, *scene);
     HEARTH_TRY(uploadShadingTables(device, pack, *scene->staging, *scene));
     HEARTH_TRY(uploadBricks(device, layouts, pack, options.bricks, *scene->staging, *scene));

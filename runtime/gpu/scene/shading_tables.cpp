@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/scene/local_probes.h"
 #include "formats/scene/reflectance.h"
 #include "formats/scene/sheen.h"
 #include "formats/scene/sky_image.h"
@@ -44,11 +45,11 @@ std::vector<uint64_t> makeShadingTables()
     return texels;
 }
 
-/// Upload the pack's table of specular occlusion, if it has one.
+/// Upload the pack's table of specular occlusion, if it has one, and its binding has room for it.
 Status uploadSpecularTable(const Device& device, const formats::PackView& pack, VkSampler sampler,
                            Uploader& uploader, Scene& scene)
 {
-    if (pack.specularTables().empty())
+    if (pack.specularTables().empty() || scene.probe_atlas.view.get() != VK_NULL_HANDLE)
         return success();
     const formats::SpecularTableRecord& table = pack.specularTables()[0];
     // same layout as in the file: the squares of the nodes of beta, one below the other
@@ -100,6 +101,29 @@ Status uploadSkyCube(const Device& device, const formats::PackView& pack, Upload
     return success();
 }
 
+/// Upload the atlas of the local probes, if the pack has any.
+Status uploadProbeAtlas(const Device& device, const formats::PackView& pack, VkSampler sampler,
+                        Uploader& uploader, Scene& scene)
+{
+    const shared::ProbeAtlas atlas = shared::makeProbeAtlas(pack.probes(), pack.probeTexels());
+    if (atlas.texels.empty())
+        return success();
+    HEARTH_ASSIGN_OR_RETURN(scene.probe_atlas,
+                            scene.arena.createImage({.format = VK_FORMAT_E5B9G9R9_UFLOAT_PACK32,
+                                                     .extent = {atlas.width, atlas.height},
+                                                     .usage = kTableUsage}));
+    HEARTH_TRY(uploader.upload(scene.probe_atlas, std::as_bytes(std::span(atlas.texels)),
+                               {.bytes = sizeof(uint32_t)}));
+    forEachView(scene,
+                [&](const SceneView& view)
+                {
+                    DescriptorWriter(view.draw_set)
+                        .texture(shared::kSceneSpecularTable, scene.probe_atlas.view.get(), sampler)
+                        .write(device);
+                });
+    return success();
+}
+
 } // namespace
 
 Status uploadShadingTables(const Device& device, const formats::PackView& pack, Uploader& uploader,
@@ -125,6 +149,7 @@ Status uploadShadingTables(const Device& device, const formats::PackView& pack, 
                         .write(device);
                 });
     HEARTH_TRY(uploadSkyCube(device, pack, uploader, scene));
+    HEARTH_TRY(uploadProbeAtlas(device, pack, sampler, uploader, scene));
     return uploadSpecularTable(device, pack, sampler, uploader, scene);
 }
 

@@ -14,6 +14,8 @@
 // without a table
 layout(set = kSetScene, binding = kSceneSpecularTable) uniform mediump sampler2D specular_table;
 
+// Margin added to both shares of the sky, below. Where both see next to no sky the cone has no say.
+const float kOpenMargin = 0.1;
 
 // Visibility cone of a point, and its angles to the normals.
 struct SkyView
@@ -43,6 +45,14 @@ mediump float diffuseSky(SkyView sky)
 {
     return ambientOcclusion(push.sky_occlusion & 255u, sky.cone.scale, sky.cone.cos_aperture, sky.cone.aperture,
                             sky.geometric, sky.shading);
+}
+
+// Share of light that a cone leaves where the light itself knows what hides the sky, but for detail.
+// visible  share of the sky, by the cone
+// known    by the light
+mediump float openShare(mediump float visible, mediump float known)
+{
+    return min((visible + kOpenMargin) / (known + kOpenMargin), 1.0);
 }
 
 mediump float specularTableShare(vec3 place)

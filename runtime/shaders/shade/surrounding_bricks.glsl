@@ -4,10 +4,6 @@
 #include "formats/gpu_shared/reflector.h"
 #include "runtime/shaders/gi/sample_gi.glsl"
 
-// Margin added to the openness of the cone and to the sky share of the bricks. Where both see next to no sky
-// the cone has no say.
-const float kOpenMargin = 0.1;
-
 // Occlusion by detail finer than the bricks: leaves and blades, several in a voxel. Returns the sky share of
 // the cone over the sky share that the bricks leave. Elsewhere the gather knows more than cones do: those of
 // vertices cannot follow a shadow across a wall, and would take light away that its bricks have not.
@@ -15,7 +11,7 @@ mediump float fineOcclusion(SurfacePoint point, vec3 normal, mediump float sky_s
 {
     if (!kSkyVisibility || material.alpha_mode == kAlphaOpaque)
         return 1.0;
-    return min((diffuseSky(skyView(point, normal, kTextureNormal)) + kOpenMargin) / (sky_share + kOpenMargin), 1.0);
+    return openShare(diffuseSky(skyView(point, normal, kTextureNormal)), sky_share);
 }
 
 vec3 reflectedShare(Light light, vec3 from_lamp)

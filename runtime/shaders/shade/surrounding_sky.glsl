@@ -1,6 +1,7 @@
-// Environment light without bricks: the sky, of which a point sees what its visibility leaves, and what
-// occludes the rest. Include after lighting.glsl.
+// Environment light without bricks: probes within the scene, and elsewhere the sky, of which a point
+// sees what its visibility leaves, and what occludes the rest. Include after lighting.glsl.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/shaders/shade/local_probes.glsl"
 
 // Without bricks nothing around a lamp gives light back.
 vec3 reflectedShare(Light light, vec3 from_lamp)
@@ -21,7 +22,7 @@ mediump vec3 mirroredSky(SkyView sky, OccluderLight occluders, LightCone open, v
     return share * skyMirror(visibleSpecularCone(sky, open), open, roughness, n_dot_v, diffuse) + specularOccluders(occluders, open, share);
 }
 
-vec3 surroundingLight(SurfacePoint point, Shading shading, Layers layers, mediump float occlusion)
+vec3 skyLight(SurfacePoint point, Shading shading, Layers layers, mediump float occlusion)
 {
     vec3 mirror = reflect(-shading.to_eye, shading.normal);
     LightCone diffuse = cosineCone(shading.normal);
@@ -68,4 +69,14 @@ vec3 surroundingLight(SurfacePoint point, Shading shading, Layers layers, medium
                                        layers.coat_n_dot_v, seen, occlusion));
     }
     return radiance;
+}
+
+vec3 surroundingLight(SurfacePoint point, Shading shading, Layers layers, mediump float occlusion)
+{
+    if (!kLocalProbes)
+        return skyLight(point, shading, layers, occlusion);
+    vec4 probes = sumLocalProbes(point, shading, layers, occlusion);
+    if (probes.a < 1.0)
+        probes.rgb += (1.0 - probes.a) * skyLight(point, shading, layers, occlusion);
+    return probes.rgb;
 }

@@ -53,7 +53,8 @@ std::map<std::string, uint32_t> constantIds()
             {"kLightList", shared::kConstantLightList},
             {"kStored", shared::kConstantStored},
             {"kReflects", shared::kConstantReflects},
-            {"kReceivers", shared::kConstantReceivers}};
+            {"kReceivers", shared::kConstantReceivers},
+            {"kLocalProbes", shared::kConstantLocalProbes}};
 }
 
 /// Not a GpuTest: that creates pipelines, and a driver may crash where a shader and a layout differ.

@@ -1,0 +1,380 @@
+// Draws metal and paint in a room with a local probe, beside paths through the room.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/bricks/light/scene_light.h"
+#include "cook/probes/probe.h"
+#include "cook/reflections/capture/capture.h"
+#include "tests/environments/environments.h"
+#include "tests/reference/flip.h"
+#include "tests/reference/tracer/path_tracer.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/lit_scene.h"
+#include "tests/support/shapes.h"
+
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+using environment::Environment;
+using environment::Layout;
+using formats::LightType;
+
+constexpr uint32_t kSide = 96;           ///< of an image, in pixels
+constexpr uint32_t kSamples = 2;         ///< of a drawn pixel, along each axis
+constexpr uint32_t kPaths = 256;         ///< of each pixel
+constexpr Float3 kAt{0.2f, 1.4f, -0.3f}; ///< position of the probe, in the middle of the ball
+
+Affine3 withAxes(Float3 right, Float3 up, Float3 center)
+{
+    Affine3 t = translated(center);
+    const Float3 columns[] = {right, up, cross(right, up)};
+    for (size_t c = 0; c < 3; ++c)
+        for (int row = 0; row < 3; ++row)
+            t.m[row][c] = columns[c][row];
+    return t;
+}
+
+double meanChannel(const Image& image)
+{
+    double sum = 0;
+    for (const uint32_t color : image.color)
+        sum += channel(color, 1);
+    return sum / static_cast<double>(image.color.size());
+}
+
+int largestDifference(const Image& a, const Image& b)
+{
+    int largest = 0;
+    for (size_t i = 0; i < a.color.size(); ++i)
+        for (int c = 0; c < 3; ++c)
+            largest = std::max(largest, std::abs(channel(a.color[i], c) - channel(b.color[i], c)));
+    return largest;
+}
+
+class LocalProbeImageTest : public GpuTest
+{
+protected:
+    uint32_t addPaint(Float3 color, float metallic = 0, float roughness = 1)
+    {
+        formats::MaterialRecord material = plainMaterial();
+        material.base_color = {color.x, color.y, color.z, 1};
+        material.metallic = metallic;
+        material.roughness = roughness;
+        return test_.addMaterial(material);
+    }
+
+    void addWall(Float3 color, Float3 right, Float3 up, Float3 center, float width, float height)
+    {
+        test_.addInstance(test_.addMesh(withMaterial(makeQuad(width, height), addPaint(color))),
+                          withAxes(right, up, center));
+    }
+
+    /// Add a room of 4 x 3 x 5 m with a wall of each colour, a white block, and a lamp.
+    void addRoom()
+    {
+        addWall({0.5f, 0.5f, 0.5f}, {1, 0, 0}, {0, 0, -1}, {0, 0, 0}, 4, 5);
+        addWall({0.8f, 0.8f, 0.8f}, {1, 0, 0}, {0, 0, 1}, {0, 3, 0}, 4, 5);
+        addWall({0.7f, 0.1f, 0.1f}, {0, 0, -1}, {0, 1, 0}, {-2, 1.5f, 0}, 5, 3);
+        addWall({0.1f, 0.6f, 0.15f}, {0, 0, 1}, {0, 1, 0}, {2, 1.5f, 0}, 5, 3);
+        addWall({0.15f, 0.2f, 0.7f}, {1, 0, 0}, {0, 1, 0}, {0, 1.5f, -2.5f}, 4, 3);
+        addWall({0.7f, 0.6f, 0.1f}, {-1, 0, 0}, {0, 1, 0}, {0, 1.5f, 2.5f}, 4, 3);
+        test_.addLight(light(LightType::point, {0.6f, 2.4f, 0.8f}, {0, -1, 0}, 5));
+    }
+
+    uint32_t addBall(float radius, Float3 center, uint32_t material)
+    {
+        mesh::SourceMesh ball = shapes::rock(24, 0);
+        for (Float3& p : ball.positions)
+            p = normalizeOr(p, {}) * radius;
+        for (const Float3& p : ball.positions)
+            ball.normals.push_back(p / radius);
+        test_.addInstance(test_.addMesh(withMaterial(ball, material)), translated(center));
+        return static_cast<uint32_t>(test_.model().instances.size() - 1);
+    }
+
+    /// Capture the scene as it is.
+    probes::Probe capture(Float3 position)
+    {
+        const formats::PackView pack = test_.build();
+        const std::vector<bricks::SourceParts> sources{{pack, pack, pack}};
+        const bricks::StaticScene scene = bricks::collectStaticScene(sources).value();
+        const auto surfaces = reflections::Surfaces::read(scene).value();
+        const reflections::Capture seen = reflections::captureRadiance(
+            surfaces, bricks::makeSceneLighting(scene), {}, position, formats::kMaxLocalProbeSide);
+        probes::Probe probe = probes::cookProbe(seen.radiance, "room", formats::kMaxLocalProbeSide).value();
+        place(probe, position, reflections::findBox(surfaces, position), 0.2f);
+        return probe;
+    }
+
+    static void place(probes::Probe& probe, Float3 position, const Box3& box, float fade)
+    {
+        probe.record.flags = formats::kProbeIsLocal;
+        probe.record.position = position;
+        probe.record.box_min = box.min;
+        probe.record.box_max = box.max;
+        probe.record.influence_min = box.min - Float3{fade, fade, fade};
+        probe.record.influence_max = box.max + Float3{fade, fade, fade};
+        probe.record.fade = fade;
+    }
+
+    void setProbes(const std::vector<probes::Probe>& probes)
+    {
+        PackModel& model = test_.model();
+        model.probes.clear();
+        model.probe_texels.clear();
+        for (const probes::Probe& probe : probes)
+        {
+            model.probes.push_back(probe.record);
+            model.probes.back().texels.first = static_cast<uint32_t>(model.probe_texels.size());
+            model.probe_texels.insert(model.probe_texels.end(), probe.texels.begin(), probe.texels.end());
+        }
+    }
+
+    Image drawScene(const shared::Camera& camera, uint32_t side = kSamples * kSide)
+    {
+        const formats::PackView pack = test_.build();
+        const auto scene = upload(pack);
+        return draw(*scene, camera, {.width = side, .height = side});
+    }
+
+    reference::Image trace(const shared::Camera& camera)
+    {
+        const formats::PackView pack = test_.build();
+        const reference::PackGeometry geometry = reference::PackGeometry::decode(pack).value();
+        const reference::TextureSet textures = reference::TextureSet::load(pack).value();
+        const reference::ShadedScene scene(geometry, textures, nullptr);
+        const auto radiance = reference::tracePaths(
+            scene, {.camera = camera, .width = kSide, .height = kSide, .samples = kPaths});
+        reference::Image image(kSide, kSide);
+        for (uint32_t i = 0; i < kSide * kSide; ++i)
+        {
+            const double rgb[] = {radiance[i].x, radiance[i].y, radiance[i].z};
+            for (size_t c = 0; c < 3; ++c)
+                image.at(i % kSide, i / kSide)[c] = static_cast<uint8_t>(
+                    std::clamp(reference::srgbFromLinear(reference::filmic(rgb[c])), 0.0, 1.0) * 255 + 0.5);
+        }
+        return image;
+    }
+
+    static reference::Image average(const Image& drawn)
+    {
+        reference::Image image(kSide, kSide);
+        for (uint32_t i = 0; i < kSide * kSide; ++i)
+            for (int c = 0; c < 3; ++c)
+            {
+                double sum = 0;
+                for (uint32_t sample = 0; sample < kSamples * kSamples; ++sample)
+                    sum += reference::linearFromSrgb(
+                        channel(drawn.at(kSamples * (i % kSide) + sample % kSamples,
+                                         kSamples * (i / kSide) + sample / kSamples),
+                                c) /
+                        255.0);
+                image.at(i % kSide, i / kSide)[c] =
+                    static_cast<uint8_t>(reference::srgbFromLinear(sum / (kSamples * kSamples)) * 255 + 0.5);
+            }
+        return image;
+    }
+
+    /// Return the mean FLIP over pixels all of whose samples show an instance; other pixels are black.
+    static double compare(const std::string& name, uint32_t instance, const Image& drawn,
+                          reference::Image traced)
+    {
+        reference::Image picture = average(drawn);
+        const auto seen = drawn.seen();
+        std::vector<bool> counts;
+        for (uint32_t i = 0; i < kSide * kSide; ++i)
+        {
+            bool shows = true;
+            for (uint32_t sample = 0; sample < kSamples * kSamples; ++sample)
+                shows = shows && seen[(kSamples * (i / kSide) + sample / kSamples) * drawn.width +
+                                      kSamples * (i % kSide) + sample % kSamples][0] == instance;
+            counts.push_back(shows);
+        }
+        if (const char* folder = std::getenv("HEARTH_TEST_IMAGES"))
+        {
+            EXPECT_TRUE(reference::writePng(std::string(folder) + "/" + name + "-drawn.png", picture).ok());
+            EXPECT_TRUE(reference::writePng(std::string(folder) + "/" + name + "-traced.png", traced).ok());
+        }
+        for (uint32_t i = 0; i < kSide * kSide; ++i)
+            for (size_t c = 0; c < 3 && !counts[i]; ++c)
+                picture.at(i % kSide, i / kSide)[c] = traced.at(i % kSide, i / kSide)[c] = 0;
+        const reference::FlipMap map = reference::flip(traced, picture);
+        double sum = 0, pixels = 0;
+        for (uint32_t i = 0; i < kSide * kSide; ++i)
+        {
+            sum += counts[i] ? double{map.error[i]} : 0;
+            pixels += counts[i] ? 1 : 0;
+        }
+        EXPECT_GT(pixels, 500);
+        std::printf("%s: FLIP %.4f over %.0f pixels\n", name.c_str(), sum / pixels, pixels);
+        return sum / pixels;
+    }
+
+    TestScene test_;
+};
+
+/// Bright above, dim below, with colours: no detail finer than the texels of a local probe.
+Float3 makeSmoothSky(Double3 d)
+{
+    return {static_cast<float>(0.5 + 0.3 * d.x), static_cast<float>(0.5 + 0.4 * d.y),
+            static_cast<float>(0.5 - 0.3 * d.z)};
+}
+
+} // namespace
+
+TEST_F(LocalProbeImageTest, ballAtTheProbeLooksAsPathsShowIt)
+{
+    addRoom();
+    const probes::Probe probe = capture(kAt);
+    const TestScene room = test_;
+    struct Look
+    {
+        const char* name;
+        float metallic, roughness;
+        double max_flip;
+    };
+    for (const Look& look : {Look{"metal-05", 1, 0.05f, 0.06}, Look{"metal-30", 1, 0.3f, 0.06},
+                             Look{"metal-60", 1, 0.6f, 0.06}, Look{"paint-90", 0, 0.9f, 0.08}})
+    {
+        test_ = room;
+        const uint32_t ball =
+            addBall(0.15f, kAt, addPaint({0.9f, 0.8f, 0.6f}, look.metallic, look.roughness));
+        setProbes({probe});
+        const shared::Camera camera{
+            .position = kAt + Float3{0.5f, 0.2f, 0.6f}, .target = kAt, .y_fov_rad = 0.5f, .z_near = 0.05f};
+        EXPECT_LT(compare(std::string("ball-") + look.name, ball, drawScene(camera), trace(camera)),
+                  look.max_flip);
+    }
+}
+
+TEST_F(LocalProbeImageTest, mirrorShowsTheCornersOfTheRoom)
+{
+    addRoom();
+    const probes::Probe probe = capture(kAt);
+    mesh::SourceMesh glass = withMaterial(makeQuad(1.6f, 1.6f), addPaint({0.95f, 0.95f, 0.95f}, 1, 0.05f));
+    test_.addInstance(test_.addMesh(glass), translated({0.9f, 1.3f, -2.45f}));
+    const auto mirror = static_cast<uint32_t>(test_.model().instances.size() - 1);
+    const shared::Camera camera{
+        .position = {-0.6f, 1.6f, 0.4f}, .target = {0.9f, 1.3f, -2.45f}, .y_fov_rad = 0.6f, .z_near = 0.05f};
+    setProbes({probe});
+    const reference::Image traced = trace(camera);
+    const double corrected = compare("mirror", mirror, drawScene(camera), traced);
+    probes::Probe far = probe;
+    far.record.box_min = {-1000, -1000, -1000};
+    far.record.box_max = {1000, 1000, 1000};
+    setProbes({far});
+    const double uncorrected = compare("mirror-far", mirror, drawScene(camera), traced);
+    EXPECT_LT(corrected, 0.08);
+    EXPECT_LT(corrected, 0.5 * uncorrected);
+}
+
+TEST_F(LocalProbeImageTest, isPlainImageBasedLightUnderAnOpenSky)
+{
+    const Environment sky = makeEnvironment(Layout::lat_long, 64, makeSmoothSky);
+    for (size_t i = 0; i < 4; ++i)
+        addBall(1, {3 * static_cast<float>(i), 0, 0},
+                addPaint({0.9f, 0.7f, 0.5f}, i < 3 ? 1 : 0, std::array{0.1f, 0.4f, 0.9f, 0.7f}[i]));
+    test_.addLight(light(LightType::point, {0, 50, 0}, {0, -1, 0}, 1)); // no default sun
+    const shared::Camera camera{
+        .position = {4.5f, 1, 9}, .target = {4.5f, 0, 0}, .y_fov_rad = 0.9f, .z_near = 0.05f};
+    probes::Probe of_sky = probes::cookProbe(sky, "sky").value();
+    of_sky.record.flags = formats::kProbeIsSky;
+    setProbes({of_sky});
+    const Image expected = drawScene(camera);
+    probes::Probe local = probes::cookProbe(sky, "sky", 64).value();
+    place(local, {4.5f, 0, 0}, {{-5000, -5000, -5000}, {5000, 5000, 5000}}, 1);
+    setProbes({of_sky, local});
+    const Image found = drawScene(camera);
+    EXPECT_LE(largestDifference(found, expected), 3) << "of 255: 1 %";
+    EXPECT_NE(found.color, expected.color) << "the probe is drawn";
+
+    // brighter by its irradiance alone, which no byte of its texels and harmonics shows
+    local.record.irradiance_luminance *= 2;
+    setProbes({of_sky, local});
+    EXPECT_GT(meanChannel(drawScene(camera)), 1.1 * meanChannel(expected));
+}
+
+TEST_F(LocalProbeImageTest, halfTheWeightIsHalfTheLight)
+{
+    // two probes of one light whose influences fade against each other, beside one probe
+    const Environment light_all_around = makeEnvironment(Layout::cube, 32,
+                                                         [](Double3) {
+                                                             return Float3{0.4f, 0.3f, 0.2f};
+                                                         });
+    addBall(1, {}, addPaint({0.9f, 0.7f, 0.5f}, 1, 0.4f));
+    test_.addLight(light(LightType::point, {0, 50, 0}, {0, -1, 0}, 1));
+    const shared::Camera camera{.position = {0, 0, 4}, .target = {}, .y_fov_rad = 0.6f, .z_near = 0.05f};
+    probes::Probe probe = probes::cookProbe(light_all_around, "room", 64).value();
+    place(probe, {}, {{-10, -10, -10}, {10, 10, 10}}, 1);
+    setProbes({probe});
+    const Image one = drawScene(camera);
+    probes::Probe left = probe, right = probe;
+    left.record.position.x = -5;
+    left.record.influence_max.x = 2;
+    left.record.fade = 4;
+    right.record.position.x = 5;
+    right.record.influence_min.x = -2;
+    right.record.fade = 4;
+    setProbes({left, right});
+    EXPECT_LE(largestDifference(drawScene(camera), one), 1);
+}
+
+TEST_F(LocalProbeImageTest, changesNothingOutsideOfItsInfluence)
+{
+    addRoom();
+    addBall(0.3f, kAt, addPaint({0.9f, 0.8f, 0.6f}, 1, 0.2f));
+    addBall(0.3f, {8, 1, 0}, addPaint({0.9f, 0.8f, 0.6f}, 1, 0.2f));
+    const shared::Camera outside{
+        .position = {8, 1.2f, 3}, .target = {8, 1, 0}, .y_fov_rad = 0.6f, .z_near = 0.05f};
+    const shared::Camera inside{
+        .position = {0.2f, 1.5f, 2}, .target = kAt, .y_fov_rad = 0.6f, .z_near = 0.05f};
+    const Image dark_outside = drawScene(outside), dark_inside = drawScene(inside);
+    probes::Probe probe =
+        probes::cookProbe(makeEnvironment(Layout::cube, 32, makeSmoothSky), "room", 64).value();
+    place(probe, kAt, {{-2, 0, -2.5f}, {2, 3, 2.5f}}, 0.2f);
+    setProbes({probe});
+    EXPECT_EQ(drawScene(outside).color, dark_outside.color);
+    EXPECT_NE(drawScene(inside).color, dark_inside.color);
+}
+
+TEST_F(LocalProbeImageTest, allLightMethodsDrawIt)
+{
+    addRoom();
+    addBall(0.3f, kAt, addPaint({0.9f, 0.8f, 0.6f}, 1, 0.2f));
+    probes::Probe probe =
+        probes::cookProbe(makeEnvironment(Layout::cube, 32, makeSmoothSky), "room", 64).value();
+    place(probe, kAt, {{-2, 0, -2.5f}, {2, 3, 2.5f}}, 0.2f);
+    const shared::Camera camera{
+        .position = {0.2f, 1.5f, 2}, .target = kAt, .y_fov_rad = 0.6f, .z_near = 0.05f};
+    const auto drawAll = [&]
+    {
+        const formats::PackView pack = test_.build();
+        const auto scene = upload(pack);
+        std::vector<Image> images;
+        for (size_t i = 0; i < gpu::kLightMethodCount; ++i)
+        {
+            const auto method = static_cast<gpu::LightMethod>(i);
+            EXPECT_TRUE(renderer().prepareLightMethod(*scene, method).ok());
+            images.push_back(draw(*scene, camera, {.light_method = method}));
+        }
+        return images;
+    };
+    const std::vector<Image> dark = drawAll();
+    setProbes({probe});
+    const std::vector<Image> lit = drawAll();
+    const auto all = static_cast<size_t>(gpu::LightMethod::all);
+    for (size_t i = 0; i < lit.size(); ++i)
+    {
+        const gpu::LightMethodFacts& facts = gpu::kLightMethods[i];
+        EXPECT_NE(lit[i].color, dark[i].color) << facts.name;
+        if (!facts.approximates)
+            EXPECT_LE(largestDifference(lit[i], lit[all]), 2) << facts.name;
+    }
+}
+
+} // namespace hearth::test
