@@ -92,7 +92,8 @@ const std::vector<Layer>& layers()
         {"cook/bricks/voxels", {"formats", "cook/json", "cook/tools", "cook/bricks/grid"}},
         {"cook/bricks/light",
          {"formats", "cook/bricks/grid", "cook/bricks/voxels", "cook/sampling", "cook/ray_scene"}},
-        {"cook/bricks/program", {"formats", "cook/command_line", "cook/tools", "cook/bricks/light"}},
+        {"cook/bricks/program",
+         {"formats", "cook/command_line", "cook/tools", "cook/bricks/voxels", "cook/bricks/light"}},
 
         {"cook/receivers/bake", {"formats", "cook/sampling", "cook/ray_scene"}},
         {"cook/receivers/unwrap", {"formats", "cook/mesh", "cook/receivers/bake"}},
@@ -104,11 +105,11 @@ const std::vector<Layer>& layers()
 
         {"cook/reflections/place", {"formats"}},
         {"cook/reflections/capture",
-         {"formats", "cook/environment", "cook/sampling", "cook/ray_scene", "cook/bricks/voxels",
-          "cook/bricks/light", "cook/receivers/bake"}},
+         {"formats", "cook/environment", "cook/sampling", "cook/bricks/voxels", "cook/bricks/light",
+          "cook/receivers/bake"}},
         {"cook/reflections/program",
-         {"formats", "cook/command_line", "cook/tools", "cook/environment", "cook/probes",
-          "cook/bricks/voxels", "cook/bricks/light", "cook/reflections/place", "cook/reflections/capture"}},
+         {"formats", "cook/command_line", "cook/tools", "cook/probes", "cook/bricks/voxels",
+          "cook/bricks/light", "cook/reflections/place", "cook/reflections/capture"}},
 
         {"cook/visibility/mesh", {"formats", "cook/mesh"}},
         {"cook/visibility/rays", {"formats", "cook/sampling", "cook/visibility/mesh"}},
