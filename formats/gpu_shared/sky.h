@@ -4,7 +4,6 @@
 #ifndef HEARTH_SHARED_SKY_H
 #define HEARTH_SHARED_SKY_H
 
-#include "formats/gpu_shared/cube.h"
 #include "formats/gpu_shared/language.h"
 #include "formats/gpu_shared/precision.h"
 
@@ -95,6 +94,36 @@ HEARTH_FUNCTION Float3 sharedExponentColor(uint word)
     // 2^(exponent - 15 - 9)
     float scale = floatFromBits(((word >> 27) + 103u) << 23);
     return Float3(float(word & 511u), float(word >> 9 & 511u), float(word >> 18 & 511u)) * scale;
+}
+
+/// Place of a direction in a cube: across / depth and down / depth run from -1 to 1, rightwards and
+/// downwards.
+struct CubePlace
+{
+    uint panel; ///< face, in the order of a cube map
+    float across;
+    float down;
+    float depth; ///< above 0
+};
+
+/// Return the place of a direction.
+/// direction  of any length but 0
+/// source     Vulkan 1.3, section "Cube Map Face Selection"
+HEARTH_FUNCTION CubePlace findCubePlace(Float3 direction)
+{
+    float x = abs(direction.x);
+    float y = abs(direction.y);
+    float z = abs(direction.z);
+    bool is_z = z >= x && z >= y;
+    bool is_y = !is_z && y >= x;
+    float major = is_z ? direction.z : (is_y ? direction.y : direction.x);
+    CubePlace place;
+    place.panel = (is_z ? 4u : (is_y ? 2u : 0u)) + (major < 0.0f ? 1u : 0u);
+    place.across = is_z ? (major < 0.0f ? -direction.x : direction.x)
+                        : (is_y ? direction.x : (major < 0.0f ? direction.z : -direction.z));
+    place.down = is_y ? (major < 0.0f ? -direction.z : direction.z) : -direction.y;
+    place.depth = abs(major);
+    return place;
 }
 
 /// Return the index of the texel of a sky image that a direction is in.

@@ -3,7 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/gpu_shared/local_probes.h"
+#include "formats/gpu_shared/probes/local_probes.h"
 #include "formats/gpu_shared/sky.h"
 #include "formats/records/probe.h"
 

@@ -1,7 +1,7 @@
-// Light of probes within the scene (formats/gpu_shared/local_probes.h), which takes the place of the
+// Light of probes within the scene (formats/gpu_shared/probes/local_probes.h), which takes the place of the
 // sky around them. Include after sky.glsl and sky_occlusion.glsl.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/gpu_shared/local_probes.h"
+#include "formats/gpu_shared/probes/local_probes.h"
 
 layout(constant_id = kConstantLocalProbes) const bool kLocalProbes = false;
 

@@ -4,8 +4,8 @@
 #ifndef HEARTH_SHARED_LOCAL_PROBES_H
 #define HEARTH_SHARED_LOCAL_PROBES_H
 
-#include "formats/gpu_shared/cube.h"
 #include "formats/gpu_shared/language.h"
+#include "formats/gpu_shared/sky.h"
 
 // The texels of all probes lie in one image, the probes below each other: faces of roughness 0 side by
 // side, below them those of the other mips from left to right. A face has a margin of one texel from
