@@ -6,7 +6,7 @@
 #include "cook/bricks/light/reflectors.h"
 #include "cook/bricks/light/scene_light.h"
 #include "cook/bricks/light/settled_light.h"
-#include "cook/bricks/voxels/open_sources.h"
+#include "cook/bricks/voxels/source_parts.h"
 #include "cook/command_line/command_line.h"
 #include "cook/command_line/thread_limit.h"
 #include "cook/tools/open_part.h"

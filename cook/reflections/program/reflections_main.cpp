@@ -1,7 +1,7 @@
 // hearth-reflections: cooks light probes within the scene of one or more sources.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/light/scene_light.h"
-#include "cook/bricks/voxels/open_sources.h"
+#include "cook/bricks/voxels/source_parts.h"
 #include "cook/command_line/command_line.h"
 #include "cook/command_line/thread_limit.h"
 #include "cook/probes/probe.h"
