@@ -23,8 +23,8 @@ constexpr uint32_t kHuge = 0xFFFFFFF0u; ///< first + count overflows 32 bits
 constexpr size_t kStripVertices = 2 * 4;
 constexpr size_t kStripIndices = kStripVertices + 4 * 6 * 4; ///< first cluster of a page
 
-// The cluster of the triangle: the base of its UVs; vertices of 7 words: position, UV, joints and weights; then
-// indices and the section of one target.
+// The cluster of the triangle: the base of its UVs; vertices of 7 words: position, UV, joints and weights;
+// then indices and the section of one target.
 constexpr size_t kTriangleVertices = 2 * 4;
 constexpr size_t kTriangleJoints = kTriangleVertices + 3 * 4;
 constexpr size_t kTriangleWeights = kTriangleVertices + 5 * 4;

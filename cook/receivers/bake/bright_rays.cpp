@@ -102,7 +102,7 @@ public:
                 texels_[size_t{domain.texels[i].y} * domain.width + domain.texels[i].x] = first + i;
     }
 
-    /// Call visit(texel, distance) for the texels around a cell and that of the cell, with distances in cells.
+    /// Call visit(texel, distance) for the texels around a cell and that of the cell; distances are in cells.
     /// Each must be reached from the cell across the edges of texels that count: no light goes through walls.
     /// counts  is called with a texel and its distance
     template <typename Counts, typename Visit>
