@@ -227,12 +227,6 @@ TEST_F(CPoseTest, gamesAddLightsOfTheirOwn)
     (void)drawInC(frame);
     EXPECT_EQ(color_, dark);
     frame.lamp_weight_count = 0;
-    (void)drawInC(frame);
-    EXPECT_EQ(color_, dark) << "weights stay";
-    const hearth_lamp_weight on{HEARTH_LAMP_LIGHT, lamp.light, {1, 1, 1}};
-    frame.lamp_weights = &on, frame.lamp_weight_count = 1;
-    (void)drawInC(frame);
-    EXPECT_EQ(color_, lit);
     lamp.intensity = 0;
     (void)drawInC(frame);
     EXPECT_EQ(color_, dark);

@@ -41,7 +41,7 @@ formats::PackView read(const AlignedBytes& bytes)
     HEARTH_ASSERT(reader.ok());
     auto pack = formats::PackView::read(std::move(*reader));
     HEARTH_ASSERT(pack.ok());
-    return std::move(pack);
+    return std::move(pack).value();
 }
 
 } // namespace
