@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/base/half.h"
 #include "runtime/pack/receivers/receiver_light.h"
+#include "tests/runtime/gpu/brick_scene.h"
 #include "tests/runtime/gpu/frame/stage_spy.h"
 #include "tests/runtime/gpu/lights/all_lights_test.h"
 #include "tests/runtime/gpu/receivers/receiver_room.h"
@@ -291,6 +292,30 @@ TEST_F(ReceiverDrawTest, emissionHasTheWeightOfItsLamp)
     const size_t sheet = static_cast<size_t>(
         std::find(instances.begin(), instances.end(), ReceiverRoom::kSheet) - instances.begin());
     EXPECT_NEAR(full[sheet].x - dark[sheet].x, 0.8f, 0.002f);
+}
+
+TEST_F(ReceiverDrawTest, bricksGiveDiffuseLightOnlyWhereNoRectangleIs)
+{
+    ReceiverRoom room;
+    addTwoLamps(room);
+    const auto without = load(room.build());
+    const auto instances = drawInstances(*without);
+    const std::vector<Float3> expected = drawRadiance(*without);
+    ReceiverRoom bright;
+    addTwoLamps(bright);
+    constexpr std::array<uint32_t, 3> kVoxels{8, 8, 8};
+    BrickModel bricks =
+        brickModel(kVoxels, makeShell(kVoxels), [](std::array<uint32_t, 3>, uint32_t) { return FaceLook{}; });
+    bricks.grid.origin = {-4, -1, -4};
+    bricks.grid.voxel_size = 1;
+    setBricks(bright.scene(), bricks);
+    const auto with = load(bright.build());
+    ASSERT_NE(with->bricks, nullptr);
+    const std::vector<Float3> radiance = drawRadiance(*with);
+    expectNear(radiance, expected, instances, 0, ReceiverRoom::kWalls, 0);
+    const size_t sheet = static_cast<size_t>(
+        std::find(instances.begin(), instances.end(), ReceiverRoom::kSheet) - instances.begin());
+    EXPECT_NE(radiance[sheet], expected[sheet]) << "its diffuse light is no longer the sky's";
 }
 
 TEST_F(ReceiverDrawTest, allMethodsDrawOneImage)
