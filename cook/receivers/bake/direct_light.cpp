@@ -102,6 +102,16 @@ Float3 DirectLight::at(size_t light, const ReceivingPoint& point, uint64_t seed,
                : fromManyTriangles(mesh_light, sources_[number], point, own_seed, ray_count);
 }
 
+float DirectLight::missingShare(size_t number, Float3 radiance, float distance) const
+{
+    if (scene_.mesh_lights[number].triangles.size() <= mesh_light_rays_)
+        return 0;
+    const auto area =
+        static_cast<float>(sources_[number].powers.back() / mesh_light_rays_) / shared::luminance(radiance);
+    const float covered = kPi * distance * distance;
+    return 1 - covered / std::max(covered, area);
+}
+
 bool DirectLight::sees(const ReceivingPoint& point, Float3 target) const
 {
     return !rays_.triangles.occluded(point.position, target - point.position, 1);

@@ -45,6 +45,13 @@ public:
     /// ray_count  is increased by the shadow rays
     Float3 at(size_t light, const ReceivingPoint& point, uint64_t seed, uint64_t& ray_count) const;
 
+    /// Return the share of the light of a mesh light that `at` leaves out, for paths that meet its triangles:
+    /// near ones would be noise where few rays stand for many triangles.
+    /// number    of the mesh light
+    /// radiance  of a triangle, not black
+    /// distance  from the triangle to the point
+    float missingShare(size_t number, Float3 radiance, float distance) const;
+
 private:
     struct Source
     {

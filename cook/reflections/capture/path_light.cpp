@@ -14,8 +14,8 @@ namespace
 
 constexpr float kPi = 3.14159265f;
 
-/// Bounces of a path behind what the probe sees.
-constexpr uint32_t kMaxBounces = 6;
+/// Bounces of a path behind what the probe sees, at most: it ends by chance long before.
+constexpr uint32_t kMaxBounces = 64;
 /// Bounces after which a path may end by chance, as likely as it has lost its light.
 constexpr uint32_t kSureBounces = 2;
 /// Least chance to go on, which bounds the weight of a path.
@@ -59,8 +59,9 @@ Float3 PathLight::direct(const receivers::DirectLight& light, const SurfaceHit& 
     return irradiance;
 }
 
-/// Return the radiance that a path brings to a surface from a direction of its hemisphere, by the
-/// cosine. Shining surfaces that it meets are in the direct light of its points.
+/// Return the radiance that a path brings to a surface from a direction of its hemisphere, by the cosine.
+/// Shining surfaces that it meets are in the direct light of its points, but for the share that this leaves
+/// out.
 Float3 PathLight::arriving(SurfaceHit from, uint32_t path, uint64_t seed) const
 {
     Float3 sum, weight{1, 1, 1};
@@ -77,7 +78,15 @@ Float3 PathLight::arriving(SurfaceHit from, uint32_t path, uint64_t seed) const
             return sum + weight * shared::skyRadiance(lighting_.sky, direction);
         if (hit->is_black)
             break;
-        weight = weight * surfaces_.sample(*hit, std::max(hit->distance * kFootprintShare, 1e-6f)).albedo;
+        const bricks::SurfaceSample surface =
+            surfaces_.sample(*hit, std::max(hit->distance * kFootprintShare, 1e-6f));
+        if (!lights_.mesh_lights.empty() && surface.emission != Float3{})
+        {
+            const Float3 radiance = surface.emission * lighting_.exposure;
+            const receivers::DirectLight& light = bounce == 0 ? first_ : later_;
+            sum += weight * radiance * light.missingShare(0, radiance, hit->distance);
+        }
+        weight = weight * surface.albedo;
         sum += weight * direct(later_, *hit, sampling::deriveSeed(own, kDirectSeed + path)) / kPi;
         if (bounce >= kSureBounces)
         {

@@ -82,7 +82,7 @@ TEST_F(CaptureTest, shiningRoomHasTheLightOfAFurnace)
     EXPECT_NEAR(found.y, expected / 2, 0.01 * expected);
     EXPECT_NEAR(found.z, expected / 4, 0.005 * expected);
     for (const Float3& texel : seen.radiance.texels)
-        ASSERT_NEAR(double{texel.x}, expected, 0.1 * expected);
+        ASSERT_NEAR(double{texel.x}, expected, 0.3 * expected) << "the noise of 32 paths";
     EXPECT_EQ(seen.sky_share, Float4{});
     EXPECT_EQ(seen.black_share, 0);
 }
@@ -115,7 +115,7 @@ TEST_F(CaptureTest, floorUnderALampHasItsIlluminance)
                     0.05 * found + 0.1 * double{albedo.x} * sky);
     }
     EXPECT_NEAR(seen.sky_share.w, 0.5, 0.03) << "the upper half";
-    EXPECT_NEAR(seen.sky_share.w + seen.sky_share.y, 1, 0.02) << "about the normal of the floor";
+    EXPECT_NEAR(seen.sky_share.w + seen.sky_share.y, 1, 0.03) << "about the normal of the floor";
     EXPECT_NEAR(seen.sky_share.x, 0, 0.01);
 }
 
