@@ -7,6 +7,7 @@
 #include "sample_assets/shapes/glb_writer.h"
 #include "sample_assets/shapes/scene_parts.h"
 #include "sample_assets/shapes/shapes.h"
+#include "tests/support/json_schema.h"
 #include "tests/support/sandbox.h"
 
 #include <gtest/gtest.h>
@@ -212,7 +213,10 @@ TEST_F(CookReceivers, areDescribed)
     for (const Json& rectangle : receivers["rectangles"])
         EXPECT_EQ(rectangle["uv_set"], uv_sets.at(rectangle["name"].get<std::string>()));
 
-    const Json report = Json::parse(folder.read("report.json")).value()["receivers"];
+    EXPECT_EQ(faultOfSchema(HEARTH_SCHEMAS "/hearth.inspect.1.json", inspect()), "");
+    const Json whole_report = Json::parse(folder.read("report.json")).value();
+    EXPECT_EQ(faultOfSchema(HEARTH_SCHEMAS "/hearth.report.1.json", whole_report), "");
+    const Json& report = whole_report["receivers"];
     EXPECT_EQ(report["stage"], "receivers");
     const Json& atlas = report["atlas"];
     EXPECT_EQ(atlas["texels"], receivers["texels"]);
