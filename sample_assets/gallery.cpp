@@ -19,6 +19,19 @@ constexpr float kDoorHalf = 0.9f, kDoorHeight = 2.6f;
 constexpr std::array<float, 2> kPartitions{-2.7f, 3.1f}; ///< x of the walls between bays
 constexpr Float4 kUpright{0, 0, 0, 1};
 
+/// Make a rectangle that faces the side of cross(a, b).
+TriangleMesh makeFace(Float3 corner, Float3 a, Float3 b)
+{
+    TriangleMesh face = makeGrid(1, 1,
+                                 [&](Float2 uv, Float3& position, Float2& texture_uv)
+                                 {
+                                     position = corner + a * uv.x + b * uv.y;
+                                     texture_uv = {uv.x * length(a), uv.y * length(b)};
+                                 });
+    setFlatNormals(face);
+    return face;
+}
+
 TriangleMesh makeBall(Float3 center, float radius)
 {
     constexpr int kRings = 32;
@@ -37,14 +50,13 @@ void addShell(Document& document)
     const int red = addPlainMaterial(document, "red_plaster", {0.52f, 0.10f, 0.07f}, 0.95f);
     const int blue = addPlainMaterial(document, "blue_plaster", {0.10f, 0.20f, 0.42f}, 0.95f);
     const int oak = addPlainMaterial(document, "oak", {0.36f, 0.22f, 0.11f}, 0.35f);
-    const float x = kHallHalfWidth, z = kHallHalfDepth, t = kWallThickness;
-    addObject(document, "floor", {{makeBlock({-x - t, -t, -z - t}, {x + t, 0, z + t}, 0.5f), oak}});
-    addObject(document, "ceiling",
-              {{makeBlock({-x - t, kHallHeight, -z - t}, {x + t, kHallHeight + t, z + t}, 0.5f), white}});
-    addObject(document, "north", {{makeBlock({-x - t, 0, -z - t}, {x + t, kHallHeight, -z}, 0.5f), white}});
-    addObject(document, "south", {{makeBlock({-x - t, 0, z}, {x + t, kHallHeight, z + t}, 0.5f), white}});
-    addObject(document, "west", {{makeBlock({-x - t, 0, -z}, {-x, kHallHeight, z}, 0.5f), red}});
-    addObject(document, "east", {{makeBlock({x, 0, -z}, {x + t, kHallHeight, z}, 0.5f), blue}});
+    const float x = kHallHalfWidth, z = kHallHalfDepth, t = kWallThickness, high = kHallHeight;
+    addObject(document, "floor", {{makeFace({-x, 0, -z}, {0, 0, 2 * z}, {2 * x, 0, 0}), oak}});
+    addObject(document, "ceiling", {{makeFace({-x, high, -z}, {2 * x, 0, 0}, {0, 0, 2 * z}), white}});
+    addObject(document, "north", {{makeFace({-x, 0, -z}, {2 * x, 0, 0}, {0, high, 0}), white}});
+    addObject(document, "south", {{makeFace({x, 0, z}, {-2 * x, 0, 0}, {0, high, 0}), white}});
+    addObject(document, "west", {{makeFace({-x, 0, z}, {0, 0, -2 * z}, {0, high, 0}), red}});
+    addObject(document, "east", {{makeFace({x, 0, -z}, {0, 0, 2 * z}, {0, high, 0}), blue}});
     for (const float at : kPartitions)
     {
         TriangleMesh wall = makeBlock({at, 0, -z}, {at + t, kHallHeight, -kDoorHalf}, 0.5f);

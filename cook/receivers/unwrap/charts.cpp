@@ -20,6 +20,9 @@ namespace
 /// inverse: 1.4 and 2.9.
 constexpr double kGrowCosine = 0.7071, kKeepCosine = 0.342;
 
+/// Cosine between a triangle and the plane's normal below which its projection counts as a line.
+constexpr double kLineCosine = 0.1;
+
 /// Texels of a chart that a neighbour takes if all of it stays within kKeepCosine: the border of so small a
 /// chart costs more than long texels.
 constexpr double kSmallTexels = 16;
@@ -159,10 +162,13 @@ uint32_t ChartMap::findTaker(uint32_t chart, const Chart& triangles) const
     {
         const Double3 sum = sums_[chart] + sums_[other];
         const double keep = kKeepCosine * length(sum);
-        const bool fits =
-            texels < 1 || std::ranges::all_of(triangles, [&](uint32_t triangle)
-                                              { return dot(graph_.normals[triangle], sum) > keep; });
-        if (fits && length(sums_[other]) >= length(sums_[chart]) &&
+        // A projected triangle must not be a line, whichever way it faces.
+        const auto fits_in = [&](uint32_t triangle)
+        {
+            const double along = dot(graph_.normals[triangle], sum);
+            return along > keep || (texels < 1 && std::abs(along) > kLineCosine * length(sum));
+        };
+        if (std::ranges::all_of(triangles, fits_in) && length(sums_[other]) >= length(sums_[chart]) &&
             (best == kInvalidIndex || border > borders[best]))
             best = other;
     }

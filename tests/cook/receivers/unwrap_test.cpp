@@ -210,6 +210,15 @@ TEST(UnwrapTest, boxHasAChartOfTrueSizeForEachSide)
     EXPECT_LE(mesh->width * mesh->height, 1.6 * 7.0 / (0.05 * 0.05)) << "more than three eighths are unused";
 }
 
+TEST(UnwrapTest, thinRodHasAnAreaOnAllSides)
+{
+    const Shape rod = makeBox({0.01f, 1, 0.01f});
+    const auto mesh = unwrap(rod.positions, rod.indices, 0.125);
+    ASSERT_TRUE(mesh);
+    for (size_t t = 0; t < 12; ++t)
+        EXPECT_GE(areaInTexels(*mesh, t) * 0.125 * 0.125, 0.05 * area(rod, t)) << t;
+}
+
 TEST(UnwrapTest, rockHasFewChartsThatKeepApart)
 {
     const Shape rock = makeRock();
