@@ -73,8 +73,8 @@ TurnedBox makeBox(Point2 direction, std::span<const Point2> points)
 }
 
 /// Return the box of the least area, which has a side along an edge of the hull.
-/// Source: H. Freeman and R. Shapira, "Determining the minimum-area encasing rectangle for an arbitrary closed
-/// curve", 1975
+/// Source: H. Freeman and R. Shapira, "Determining the minimum-area encasing rectangle for an arbitrary
+/// closed curve", 1975
 TurnedBox findSmallestBox(const std::vector<Point2>& points)
 {
     const std::vector<Point2> hull = findHull(points);

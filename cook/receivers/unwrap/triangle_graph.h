@@ -14,8 +14,8 @@ namespace hearth::receivers
 
 struct TriangleGraph
 {
-    /// List the neighbours of triangles across edges. Vertices at one position count as one. An edge with more
-    /// or fewer than two triangles, or with two that face opposite ways, has no neighbours.
+    /// List the neighbours of triangles across edges. Vertices at one position count as one. An edge with
+    /// more or fewer than two triangles, or with two that face opposite ways, has no neighbours.
     /// positions  finite
     /// indices    three for each triangle
     TriangleGraph(std::span<const Float3> positions, std::span<const uint32_t> indices);

@@ -9,8 +9,8 @@ namespace hearth::import
 
 /// Make a UV set for the texels of receivers (cook/receivers/unwrap) in the first set that is free, unless
 /// one of the mesh's own can be used: it lies in [0, 1] without overlaps.
-/// Vertices at the borders of charts are doubled. Meshes that joints or morph targets deform stay as they are,
-/// and so do those without a free set and those in too many loose pieces.
+/// Vertices at the borders of charts are doubled. Meshes that joints or morph targets deform stay as they
+/// are, and so do those without a free set and those in too many loose pieces.
 /// texel_size  metres of the mesh's space, above 0
 void addReceiverUvs(mesh::SourceMesh& mesh, double texel_size);
 

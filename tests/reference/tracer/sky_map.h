@@ -16,12 +16,12 @@ class SkyMap
 public:
     explicit SkyMap(environment::Environment image);
 
-    /// Radiance of a direction, linear between the centres of texels. At the edge of a cube's panel it is that
-    /// of the outermost texels.
+    /// Radiance of a direction, linear between the centres of texels. At the edge of a cube's panel it is
+    /// that of the outermost texels.
     Double3 radiance(Double3 direction) const;
 
-    /// Unit direction, picked by the mean luminance of its texel and the eight around it, none of which is dark
-    /// where interpolated radiance is not.
+    /// Unit direction, picked by the mean luminance of its texel and the eight around it, none of which is
+    /// dark where interpolated radiance is not.
     /// choice, u, v  in [0, 1)
     Double3 pick(double choice, double u, double v) const;
 
@@ -37,7 +37,8 @@ private:
     };
     Place find(Double3 direction) const;
 
-    /// Radiance of a texel, which may lie one beyond the panel: around a lat-long image, else that of the edge.
+    /// Radiance of a texel, which may lie one beyond the panel: around a lat-long image, else that of the
+    /// edge.
     Double3 texel(size_t panel, int64_t x, int64_t y) const;
 
     environment::Environment image_;
