@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Draws the pictures of README and docs, from samples alone. ./dev pictures builds what it needs and calls it.
 # Plots of benchmarks are taken from build/bench, where a benchmark has left them.
-#   docs/draw_pictures.sh [NAME...]    demo, walk, levels, occlusion, bricks, shadows, lights, view, report, bench, plots
+#   docs/draw_pictures.sh [NAME...]    demo, walk, levels, occlusion, bricks, shadows, lights, lamps, view, report, bench, plots
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 bin=build/release/bin
@@ -77,6 +77,19 @@ draw_lights() {
   beside lights 1124 "$work/lights-final.png" "$work/lights-light-count.png"
 }
 
+# Baked light under four settings of its lamps, and in its texels.
+draw_lamps() {
+  cooked gallery gallery --receivers
+  local name images=() off=(--light pendant_west=0 --light pendant_middle=0 --light pendant_east=0)
+  local look=(--scene-camera 0 --size 560x360 --samples 4)
+  draw lamps-all gallery "${look[@]}"
+  draw lamps-shining gallery "${look[@]}" "${off[@]}" --light spot_stone=0 --light spot_painting=0
+  draw lamps-spots gallery "${look[@]}" "${off[@]}" --light neon=0 --light light_box=0 --light sign=0
+  draw lamps-texels gallery "${look[@]}" --view receivers
+  for name in all shining spots texels; do images+=("$work/lamps-$name.png"); done
+  beside lamps 1280 "${images[@]}"
+}
+
 # The window with its panel, as a screen shows it.
 draw_view() {
   [[ -f $work/demo.hearth ]] || cooked demo scene --bricks --voxel-size 0.25 --brick-memory 10M
@@ -117,7 +130,7 @@ PLOTS
 }
 
 names=("$@")
-((${#names[@]} > 0)) || names=(demo walk levels occlusion bricks shadows lights view report bench plots)
+((${#names[@]} > 0)) || names=(demo walk levels occlusion bricks shadows lights lamps view report bench plots)
 for name in "${names[@]}"; do
   "draw_$name"
   echo "drawn: $name"

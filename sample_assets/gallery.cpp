@@ -156,16 +156,16 @@ void addSpot(Document& document, const char* name, Float3 at, Float3 target, Flo
 
 void addLamps(Document& document)
 {
-    addPendant(document, "pendant_west", {-5.3f, 2.9f, 0.6f}, {1, 0.62f, 0.30f}, 9);
-    addPendant(document, "pendant_middle", {0.2f, 3.2f, 2.6f}, {1, 0.86f, 0.68f}, 7);
-    addPendant(document, "pendant_east", {5.5f, 2.9f, 1.6f}, {0.62f, 0.78f, 1}, 8);
-    addSpot(document, "spot_stone", {2.0f, 3.7f, -1.6f}, {0.2f, 1.0f, 0.2f}, {1, 0.93f, 0.82f}, 40);
+    addPendant(document, "pendant_west", {-5.3f, 2.9f, 0.6f}, {1, 0.62f, 0.30f}, 12);
+    addPendant(document, "pendant_middle", {0.2f, 3.2f, 2.6f}, {1, 0.86f, 0.68f}, 9);
+    addPendant(document, "pendant_east", {5.5f, 2.9f, 1.6f}, {0.62f, 0.78f, 1}, 12);
+    addSpot(document, "spot_stone", {2.0f, 3.7f, -1.6f}, {0.2f, 1.0f, 0.2f}, {1, 0.93f, 0.82f}, 16);
     addSpot(document, "spot_painting", {0.2f, 3.8f, -2.6f}, {0.2f, 1.6f, -kHallHalfDepth}, {1, 0.9f, 0.75f},
-            22);
+            14);
 
-    const int rose = addEmissiveMaterial(document, "rose_neon", {1, 0.12f, 0.35f}, 7);
-    const int cold = addEmissiveMaterial(document, "light_box", {0.75f, 0.9f, 1}, 3);
-    const int green = addEmissiveMaterial(document, "sign_light", {0.12f, 1, 0.32f}, 5);
+    const int rose = addEmissiveMaterial(document, "rose_neon", {1, 0.12f, 0.35f}, 24);
+    const int cold = addEmissiveMaterial(document, "light_box", {0.75f, 0.9f, 1}, 6);
+    const int green = addEmissiveMaterial(document, "sign_light", {0.12f, 1, 0.32f}, 20);
     addObject(document, "neon",
               {{makeBox({-kHallHalfWidth + 0.04f, 2.6f, 0}, {0.03f, 0.03f, 2.2f}, 0.5f), rose}});
     addObject(document, "light_box",
@@ -184,7 +184,7 @@ Document makeGallery()
     addExhibits(document);
     addLamps(document);
     addCamera(document, {.name = "gallery", .y_fov_rad = 1.0f, .z_near = 0.05f, .z_far = 60},
-              {-7.3f, 1.65f, 3.4f}, {0.6f, 1.25f, -1.0f});
+              {2.5f, 1.65f, 4.4f}, {-2.4f, 1.3f, -1.2f});
     addCamera(document, {.name = "east", .y_fov_rad = 1.0f, .z_near = 0.05f, .z_far = 60},
               {7.4f, 1.65f, 4.2f}, {3.4f, 1.3f, -1.6f});
     return document;
