@@ -23,7 +23,7 @@ constexpr double kOverlapPoints = 2;
 
 /// Texels along a side of the smallest chart (countTexels), and charts that are worth packing: a tree of
 /// loose leaves has more, and no texel would show anything of them.
-constexpr uint32_t kLeastTexels = 2, kMaxCharts = 50'000;
+constexpr uint32_t kMinTexels = 2, kMaxCharts = 50'000;
 
 /// Growth of texels while charts do not fit.
 constexpr double kTexelGrowth = 1.05;
@@ -78,7 +78,7 @@ std::optional<AtlasLayout> packCharts(std::span<const ProjectedChart> charts, do
             if (layout && std::max(layout->width, layout->height) <= kMaxRectangleSide)
                 return layout;
         }
-        if (largest <= kLeastTexels)
+        if (largest <= kMinTexels)
             return std::nullopt;
     }
 }
