@@ -28,8 +28,8 @@ constexpr uint32_t kPaths = 256; ///< of each pixel
 constexpr float kApart = 40;     ///< metres between balls, so that none sees another
 
 // Mean of an image, and of those of one sky. A part of it is the noise of paths: with 1024 of them, in images
-// of 64 pixels, a sunset has .025, a night .026, a forest of 512 x 256 texels .037, and the day below .034. The
-// forest in a mirror, whose leaves are one texel wide, has .065 so and .085 here.
+// of 64 pixels, a sunset has .025, a night .026, a forest of 512 x 256 texels .037, and the day below .034.
+// The forest in a mirror, whose leaves are one texel wide, has .065 so and .085 here.
 constexpr double kMaxFlip = 0.1, kMaxMeanFlip = 0.05;
 
 struct Ball
