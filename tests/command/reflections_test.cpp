@@ -74,7 +74,7 @@ TEST_F(CookReflections, givesThePackAProbeForEachPlace)
         << list.out;
 }
 
-TEST_F(CookReflections, E1406_probeInsideOfASolid)
+TEST_F(CookReflections, E1407_probeInsideOfASolid)
 {
     // the same faces turned outwards
     folder.write("room.obj", "v -2 0 -2.5\nv 2 0 -2.5\nv 2 3 -2.5\nv -2 3 -2.5\n"
@@ -83,7 +83,7 @@ TEST_F(CookReflections, E1406_probeInsideOfASolid)
     const ProgramEnd end = cook({"--probe", "5,1,0", "--probe", "0,1,0"});
     EXPECT_EQ(end.exit_code, 65);
     EXPECT_NE(end.err.find("probe 1 at 0,1,0"), std::string::npos) << end.err;
-    EXPECT_NE(end.err.find("E1406"), std::string::npos) << end.err;
+    EXPECT_NE(end.err.find("E1407"), std::string::npos) << end.err;
     EXPECT_FALSE(folder.has("room.hearth"));
 }
 

@@ -151,7 +151,7 @@ TEST(PageData, saysWhichSettingsMakeEachCookerCheaper)
                                            "bricks", "receivers", "reflections"})
                         .contains(cooker))
             << cooker << " runs in no cook";
-    EXPECT_EQ(savings.size(), 8u) << savings;
+    EXPECT_EQ(savings.size(), 9u) << savings;
 }
 
 TEST(ReportPage, cannotBeLeftByWhatIsInIt)

@@ -16,7 +16,7 @@ inline constexpr float kBrightRay = 4;
 
 /// Bright rays of a texel up to which all of their light is spread, and from which on none of it: what many
 /// rays meet has little noise, and shadows of its own.
-inline constexpr uint32_t kFewBrightRays = 8, kManyBrightRays = 16;
+inline constexpr uint32_t kFewBrightRays = 4, kManyBrightRays = 8;
 
 /// Gather the light of all texels, and spread that of bright rays over texels of the same surface. Where no
 /// rays are bright it is that of GatherTable::gather. Does not depend on the number of threads.
