@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/receivers/scene/receiver_scene.h"
 
+#include "cook/bricks/light/opaque_clusters.h"
 #include "cook/bricks/light/scene_light.h"
 #include "cook/receivers/bake/uv_use.h"
 #include "formats/base/index.h"
@@ -107,28 +108,14 @@ void addCluster(const bricks::StaticInstance& from, const ClusterGeometry& geome
 Result<std::vector<SourceInstance>> readInstances(const bricks::StaticScene& scene)
 {
     std::vector<SourceInstance> instances(scene.instances.size());
-    std::vector<std::byte> page;
-    uint32_t page_source = kInvalidIndex, page_number = kInvalidIndex;
-    for (const bricks::InstancedCluster& at : bricks::findCutClusters(scene, 0))
-    {
-        const PackView& part = scene.sources[at.source].clusters;
-        const ClusterRecord& record = part.clusters()[at.cluster];
-        const bricks::SurfaceMaterial& material = scene.material(at.source, record.material);
-        if (material.hasHoles())
-            continue;
-        if (at.source != page_source || at.page != page_number)
+    HEARTH_TRY(bricks::visitOpaqueClusters(
+        scene, bricks::findCutClusters(scene, 0),
+        [&](const bricks::StaticInstance& instance, const ClusterGeometry& geometry,
+            const bricks::SurfaceMaterial& material)
         {
-            HEARTH_ASSIGN_OR_RETURN(page, part.decodePage(at.page));
-            page_source = at.source;
-            page_number = at.page;
-        }
-        const bricks::StaticInstance& instance = scene.instances[at.instance];
-        const auto geometry = ClusterGeometry::at(page, record, part.meshes()[instance.mesh]);
-        if (!geometry)
-            return Error{Issue::meaning_geometry, part.name(), "cluster " + std::to_string(at.cluster),
-                         "lies outside its page"};
-        addCluster(instance, *geometry, material, at.instance, instances[at.instance]);
-    }
+            const auto number = static_cast<uint32_t>(&instance - scene.instances.data());
+            addCluster(instance, geometry, material, number, instances[number]);
+        }));
     return instances;
 }
 

@@ -24,7 +24,7 @@ Capture captureRadiance(const Surfaces& surfaces, const shared::SceneLighting& l
                         const std::optional<environment::Environment>& sky, Float3 position, uint32_t side);
 
 /// Find the box around a position: from the first surface along each axis to that on the other side.
-/// Where an axis meets nothing the box ends as far beyond the scene as the scene is large, so that the
+/// If an axis meets nothing, the box ends as far beyond the scene as the scene is large, so that the
 /// light from there has next to no parallax.
 Box3 findBox(const Surfaces& surfaces, Float3 position);
 
