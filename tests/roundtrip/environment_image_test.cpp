@@ -5,6 +5,7 @@
 #include "tests/environments/environments.h"
 #include "tests/reference/flip.h"
 #include "tests/reference/tracer/path_tracer.h"
+#include "tests/roundtrip/traced_pictures.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/shapes.h"
@@ -107,35 +108,7 @@ protected:
         const auto radiance = reference::tracePaths(
             scene,
             {.camera = look(ball), .width = kSide, .height = kSide, .samples = kPaths, .max_bounces = 2});
-        reference::Image image(kSide, kSide);
-        for (uint32_t i = 0; i < kSide * kSide; ++i)
-        {
-            const double rgb[] = {radiance[i].x, radiance[i].y, radiance[i].z};
-            for (size_t c = 0; c < 3; ++c)
-                image.at(i % kSide, i / kSide)[c] = static_cast<uint8_t>(
-                    std::clamp(reference::srgbFromLinear(reference::filmic(rgb[c])), 0.0, 1.0) * 255 + 0.5);
-        }
-        return image;
-    }
-
-    /// Return the image in kSide x kSide pixels, each the mean of its samples.
-    static reference::Image average(const Image& drawn)
-    {
-        reference::Image image(kSide, kSide);
-        for (uint32_t i = 0; i < kSide * kSide; ++i)
-            for (int c = 0; c < 3; ++c)
-            {
-                double sum = 0;
-                for (uint32_t sample = 0; sample < kSamples * kSamples; ++sample)
-                    sum += reference::linearFromSrgb(
-                        channel(drawn.at(kSamples * (i % kSide) + sample % kSamples,
-                                         kSamples * (i / kSide) + sample / kSamples),
-                                c) /
-                        255.0);
-                image.at(i % kSide, i / kSide)[c] =
-                    static_cast<uint8_t>(reference::srgbFromLinear(sum / (kSamples * kSamples)) * 255 + 0.5);
-            }
-        return image;
+        return showRadiance(radiance, kSide);
     }
 
     /// Make pixels black in which no sample shows a surface. The background of paths has the edges of texels,
@@ -178,7 +151,8 @@ TEST_F(EnvironmentImageTest, ballsLookAsPathsShowThem)
         {
             const Image samples =
                 draw(*scene, look(i), {.width = kSamples * kSide, .height = kSamples * kSide});
-            reference::Image drawn = average(samples), traced = trace(traced_scene, i);
+            reference::Image drawn = averageSamples(samples, kSide, kSamples),
+                             traced = trace(traced_scene, i);
             hideBackground(samples, drawn);
             hideBackground(samples, traced);
             const double difference = reference::flip(traced, drawn).mean();

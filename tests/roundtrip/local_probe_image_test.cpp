@@ -6,6 +6,7 @@
 #include "tests/environments/environments.h"
 #include "tests/reference/flip.h"
 #include "tests/reference/tracer/path_tracer.h"
+#include "tests/roundtrip/traced_pictures.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/lit_scene.h"
 #include "tests/support/shapes.h"
@@ -155,41 +156,14 @@ protected:
         const reference::ShadedScene scene(geometry, textures, nullptr);
         const auto radiance = reference::tracePaths(
             scene, {.camera = camera, .width = kSide, .height = kSide, .samples = kPaths});
-        reference::Image image(kSide, kSide);
-        for (uint32_t i = 0; i < kSide * kSide; ++i)
-        {
-            const double rgb[] = {radiance[i].x, radiance[i].y, radiance[i].z};
-            for (size_t c = 0; c < 3; ++c)
-                image.at(i % kSide, i / kSide)[c] = static_cast<uint8_t>(
-                    std::clamp(reference::srgbFromLinear(reference::filmic(rgb[c])), 0.0, 1.0) * 255 + 0.5);
-        }
-        return image;
-    }
-
-    static reference::Image average(const Image& drawn)
-    {
-        reference::Image image(kSide, kSide);
-        for (uint32_t i = 0; i < kSide * kSide; ++i)
-            for (int c = 0; c < 3; ++c)
-            {
-                double sum = 0;
-                for (uint32_t sample = 0; sample < kSamples * kSamples; ++sample)
-                    sum += reference::linearFromSrgb(
-                        channel(drawn.at(kSamples * (i % kSide) + sample % kSamples,
-                                         kSamples * (i / kSide) + sample / kSamples),
-                                c) /
-                        255.0);
-                image.at(i % kSide, i / kSide)[c] =
-                    static_cast<uint8_t>(reference::srgbFromLinear(sum / (kSamples * kSamples)) * 255 + 0.5);
-            }
-        return image;
+        return showRadiance(radiance, kSide);
     }
 
     /// Return the mean FLIP over pixels all of whose samples show an instance; other pixels are black.
     static double compare(const std::string& name, uint32_t instance, const Image& drawn,
                           reference::Image traced)
     {
-        reference::Image picture = average(drawn);
+        reference::Image picture = averageSamples(drawn, kSide, kSamples);
         const auto seen = drawn.seen();
         std::vector<bool> counts;
         for (uint32_t i = 0; i < kSide * kSide; ++i)

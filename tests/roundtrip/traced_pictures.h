@@ -1,0 +1,47 @@
+// Pictures of traced radiance and of drawn samples, in the same pixels and codes, to be compared.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "tests/reference/tracer/path_tracer.h"
+#include "tests/support/gpu_fixture.h"
+
+namespace hearth::test
+{
+
+/// Return a square image of radiance as the runtime shows it, by its filmic curve.
+/// radiance  [side * side], row by row
+template <typename Radiance>
+reference::Image showRadiance(const Radiance& radiance, uint32_t side)
+{
+    reference::Image image(side, side);
+    for (uint32_t i = 0; i < side * side; ++i)
+    {
+        const double rgb[] = {radiance[i].x, radiance[i].y, radiance[i].z};
+        for (size_t c = 0; c < 3; ++c)
+            image.at(i % side, i / side)[c] = static_cast<uint8_t>(
+                std::clamp(reference::srgbFromLinear(reference::filmic(rgb[c])), 0.0, 1.0) * 255 + 0.5);
+    }
+    return image;
+}
+
+/// Return a square image whose pixels are the linear means of a drawn one's samples.
+/// samples  of a pixel, along each axis
+inline reference::Image averageSamples(const Image& drawn, uint32_t side, uint32_t samples)
+{
+    reference::Image image(side, side);
+    for (uint32_t i = 0; i < side * side; ++i)
+        for (int c = 0; c < 3; ++c)
+        {
+            double sum = 0;
+            for (uint32_t sample = 0; sample < samples * samples; ++sample)
+                sum += reference::linearFromSrgb(channel(drawn.at(samples * (i % side) + sample % samples,
+                                                                  samples * (i / side) + sample / samples),
+                                                         c) /
+                                                 255.0);
+            image.at(i % side, i / side)[c] =
+                static_cast<uint8_t>(reference::srgbFromLinear(sum / (samples * samples)) * 255 + 0.5);
+        }
+    return image;
+}
+
+} // namespace hearth::test
