@@ -45,6 +45,7 @@ Result<Device> makeDevice(const DeviceDescription& description, std::span<const 
     device.pipeline_cache = description.pipeline_cache;
     device.memory_hooks = description.memory_hooks;
     device.message_hook = description.message_hook;
+    device.specializes_shaders = description.specializes_shaders;
     device.sampler_anisotropy = description.sampler_anisotropy;
     const auto has = [&](VkFormat format, VkFormatFeatureFlags features)
     { return hasFeatures(device.vk, description.physical_device, format, features); };

@@ -41,6 +41,9 @@ struct DeviceDescription
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE; ///< for all pipelines
     MemoryHooks memory_hooks{};                      ///< none: the library allocates blocks of its own
     MessageHook message_hook{};
+    /// Give the driver the part of each shader that a pipeline needs (specialized_shader.h); false: whole modules and
+    /// their specialization constants, for tools that know modules by their words.
+    bool specializes_shaders = true;
 };
 
 /// Maker and name of a device.
@@ -59,6 +62,7 @@ struct Device
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE;
     MemoryHooks memory_hooks{};
     MessageHook message_hook{};
+    bool specializes_shaders = true;
     bool sampler_anisotropy = false;
     /// [TexelFormat]: textures may have the format and be filtered. Features for compressed formats need not
     /// be enabled, but for ASTC of floats.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/vulkan/pipelines.h"
 
+#include "runtime/gpu/vulkan/specialized_shader.h"
+
 #include <algorithm>
 #include <iterator>
 
@@ -24,7 +26,8 @@ Result<UniqueShaderModule> createModule(const Device& device, std::span<const ui
 class ConstantValues
 {
 public:
-    explicit ConstantValues(std::span<const uint32_t> values)
+    /// The values must outlive this.
+    explicit ConstantValues(std::span<const uint32_t> values) : values_(values)
     {
         for (uint32_t i = 0; i < values.size(); ++i)
             entries_.push_back({i, i * uint32_t{sizeof(uint32_t)}, sizeof(uint32_t)});
@@ -33,9 +36,11 @@ public:
     ConstantValues(const ConstantValues&) = delete;
     ConstantValues& operator=(const ConstantValues&) = delete;
 
+    std::span<const uint32_t> values() const { return values_; }
     const VkSpecializationInfo* info() const { return &info_; }
 
 private:
+    std::span<const uint32_t> values_;
     std::vector<VkSpecializationMapEntry> entries_;
     VkSpecializationInfo info_{};
 };
@@ -80,12 +85,34 @@ void setStencil(Stencil stencil, VkPipelineDepthStencilStateCreateInfo& state)
         state.back.depthFailOp = VK_STENCIL_OP_INCREMENT_AND_WRAP;
 }
 
-VkPipelineShaderStageCreateInfo stageInfo(VkShaderStageFlagBits stage, VkShaderModule module,
-                                          const VkSpecializationInfo* constants)
+/// Shader of a pipeline with its constants, in a module that has the code alone that they leave.
+class Stage
 {
-    return {
-        VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO, nullptr, 0, stage, module, "main", constants};
-}
+public:
+    /// constants  those of the pipeline, which must outlive the stage
+    static Result<Stage> create(const Device& device, VkShaderStageFlagBits stage,
+                                std::span<const uint32_t> spirv, const ConstantValues& constants)
+    {
+        Stage result;
+        const std::optional<std::vector<uint32_t>> specialized =
+            device.specializes_shaders ? specializeShader(spirv, constants.values()) : std::nullopt;
+        HEARTH_ASSIGN_OR_RETURN(result.module_, createModule(device, specialized ? *specialized : spirv));
+        result.info_ = {VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO,
+                        nullptr,
+                        0,
+                        stage,
+                        result.module_.get(),
+                        "main",
+                        specialized ? nullptr : constants.info()};
+        return result;
+    }
+
+    const VkPipelineShaderStageCreateInfo& info() const { return info_; }
+
+private:
+    UniqueShaderModule module_;
+    VkPipelineShaderStageCreateInfo info_{};
+};
 
 } // namespace
 
@@ -132,12 +159,13 @@ Result<ComputePipeline> createComputePipeline(const Device& device, std::span<co
     ComputePipeline result;
     HEARTH_ASSIGN_OR_RETURN(result.layout,
                             createPipelineLayout(device, sets, VK_SHADER_STAGE_COMPUTE_BIT, push_bytes));
-    HEARTH_ASSIGN_OR_RETURN(const UniqueShaderModule module, createModule(device, spirv));
+    const ConstantValues values(constants);
+    HEARTH_ASSIGN_OR_RETURN(const Stage stage,
+                            Stage::create(device, VK_SHADER_STAGE_COMPUTE_BIT, spirv, values));
 
     VkComputePipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
-    const ConstantValues values(constants);
-    info.stage = stageInfo(VK_SHADER_STAGE_COMPUTE_BIT, module.get(), values.info());
+    info.stage = stage.info();
     info.layout = result.layout.get();
     VkPipeline pipeline;
     HEARTH_TRY_VK(device.vk.vkCreateComputePipelines(device.handle, device.pipeline_cache, 1, &info,
@@ -149,15 +177,16 @@ Result<ComputePipeline> createComputePipeline(const Device& device, std::span<co
 
 Result<UniquePipeline> createGraphicsPipeline(const Device& device, const GraphicsDescription& description)
 {
-    HEARTH_ASSIGN_OR_RETURN(const UniqueShaderModule vertex, createModule(device, description.vertex));
-    UniqueShaderModule fragment;
     const ConstantValues constants(description.constants);
-    std::vector<VkPipelineShaderStageCreateInfo> stages = {
-        stageInfo(VK_SHADER_STAGE_VERTEX_BIT, vertex.get(), constants.info())};
+    HEARTH_ASSIGN_OR_RETURN(const Stage vertex,
+                            Stage::create(device, VK_SHADER_STAGE_VERTEX_BIT, description.vertex, constants));
+    Stage fragment;
+    std::vector<VkPipelineShaderStageCreateInfo> stages = {vertex.info()};
     if (!description.fragment.empty())
     {
-        HEARTH_ASSIGN_OR_RETURN(fragment, createModule(device, description.fragment));
-        stages.push_back(stageInfo(VK_SHADER_STAGE_FRAGMENT_BIT, fragment.get(), constants.info()));
+        HEARTH_ASSIGN_OR_RETURN(
+            fragment, Stage::create(device, VK_SHADER_STAGE_FRAGMENT_BIT, description.fragment, constants));
+        stages.push_back(fragment.info());
     }
     VkPipelineVertexInputStateCreateInfo vertex_input{};
     vertex_input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;

@@ -143,6 +143,7 @@ gpu::DeviceDescription recordPipelines(const gpu::DeviceDescription& description
     recorder.get_instance_proc_addr = description.get_instance_proc_addr;
     gpu::DeviceDescription recording = description;
     recording.get_instance_proc_addr = getInstanceProcAddr;
+    recording.specializes_shaders = false; // stages are found by the words of listed shaders
     return recording;
 }
 

@@ -8,6 +8,7 @@
 namespace hearth::shaders
 {
 
+extern const std::span<const uint32_t> branches_comp;
 extern const std::span<const uint32_t> brick_march_comp;
 extern const std::span<const uint32_t> fetch_texels_comp;
 extern const std::span<const uint32_t> forward_vert;
