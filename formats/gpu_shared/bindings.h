@@ -9,17 +9,11 @@
 HEARTH_SHARED_BEGIN
 
 /// Sets of the pipelines that draw and shade clusters. The compute passes that read vertices have the
-/// scene as their set 0. With HEARTH_ONE_SET, which shaders alone define, all that shading binds is set 0
-/// (FrameWay::one_set): bindings of the scene, a material, the attachments and the tables of cluster views
-/// have different numbers.
+/// scene as their set 0. All that shading binds may also be one set (FrameWay::one_set): bindings of the
+/// scene, a material, the attachments and the tables of cluster views have different numbers.
 HEARTH_CONSTANT uint kSetScene = 0;
-#ifdef HEARTH_ONE_SET
-HEARTH_CONSTANT uint kSetMaterial = 0;
-HEARTH_CONSTANT uint kSetAttachments = 0;
-#else
 HEARTH_CONSTANT uint kSetMaterial = 1;
 HEARTH_CONSTANT uint kSetAttachments = 2; ///< material depth and shading
-#endif
 HEARTH_CONSTANT uint kSetBins = 2; ///< visibility pass and shadow casters
 
 /// Bindings of the scene. Seven storage buffers in the vertex stage, to which each set 2 adds one, and
@@ -79,11 +73,7 @@ HEARTH_CONSTANT uint kSetTables = 0;
 HEARTH_CONSTANT uint kSetOcclusion = 1; ///< culling
 HEARTH_CONSTANT uint kSetTiles = 1;     ///< material tiles
 /// Debug views of clusters: the attachments, with their bindings.
-#ifdef HEARTH_ONE_SET
-HEARTH_CONSTANT uint kSetClusterAttachments = 0;
-#else
 HEARTH_CONSTANT uint kSetClusterAttachments = 1;
-#endif
 
 /// Bindings of the tables: a table has the same one in every pass, and a pass has those that it uses
 /// (runtime/gpu/scene/scene_tables.h).

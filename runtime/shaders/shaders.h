@@ -12,9 +12,8 @@ namespace hearth::shaders
 /// Compilations of a shader of the pipelines that read the visibility buffer, by macro.
 enum Variant : uint32_t
 {
-    kReadsInput,         ///< none
-    kReadsSampled,       ///< HEARTH_SAMPLED
-    kReadsInputOfOneSet, ///< HEARTH_ONE_SET
+    kReadsInput,   ///< none
+    kReadsSampled, ///< HEARTH_SAMPLED
     kVariantCount,
 };
 using VariedShader = std::array<std::span<const uint32_t>, kVariantCount>;

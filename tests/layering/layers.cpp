@@ -291,6 +291,7 @@ const std::vector<Library>& libraries()
         {"GLES3/", {}},
         {"OpenMesh/", {}},         // counts boundary loops, in tests
         {"spirv_cross/", {}},      // reflects shaders, in tests
+        {"spirv-tools/", {}},      // validates shaders, in tests
         {"tiny_gltf.h", {}, true}, // reads glTF as an oracle, in tests
     };
     return list;

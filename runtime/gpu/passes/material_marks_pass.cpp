@@ -26,6 +26,7 @@ Result<MaterialMarksPass> MaterialMarksPass::create(const Device& device, const 
                                         .fragment = (by_depth ? shaders::material_depth_frag
                                                               : shaders::material_stencil_frag)[reading],
                                         .layout = layouts.shading.get(),
+                                        .one_set = passes.way() == FrameWay::one_set,
                                         .render_pass = place.render_pass,
                                         .subpass = place.subpass,
                                         .depth_compare = VK_COMPARE_OP_ALWAYS,

@@ -83,6 +83,7 @@ GraphicsDescription ShadingPass::describe(std::span<const uint32_t> fragment, Vk
     return {.vertex = shaders::shaded_area_vert[shaderVariant(way_)],
             .fragment = fragment,
             .layout = layout,
+            .one_set = way_ == FrameWay::one_set,
             .render_pass = place_.render_pass,
             .subpass = place_.subpass,
             .depth_compare = by_depth ? VK_COMPARE_OP_EQUAL : VK_COMPARE_OP_ALWAYS,
@@ -237,6 +238,7 @@ Status ShadingPass::prepareBrickViews(const Device& device, const DrawLayouts& l
         GraphicsDescription bricks =
             describeSurfaceView(shaders::view_bricks_frag, layouts.brick_views.get());
         bricks.depth_compare = VK_COMPARE_OP_ALWAYS;
+        bricks.one_set = false;
         HEARTH_ASSIGN_OR_RETURN(brick_views_, createGraphicsPipeline(device, bricks));
     }
     UniquePipeline& gathered = gi_views_[variant.deformed];

@@ -20,9 +20,7 @@ constexpr ShadingDescriptors shadingDescriptors(FrameWay way, bool has_light_ima
 
 constexpr shaders::Variant shaderVariant(FrameWay way)
 {
-    if (!hasSubpasses(way))
-        return shaders::kReadsSampled;
-    return way == FrameWay::one_set ? shaders::kReadsInputOfOneSet : shaders::kReadsInput;
+    return hasSubpasses(way) ? shaders::kReadsInput : shaders::kReadsSampled;
 }
 
 } // namespace hearth::gpu

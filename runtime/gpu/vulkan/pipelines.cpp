@@ -178,16 +178,21 @@ Result<ComputePipeline> createComputePipeline(const Device& device, std::span<co
 Result<UniquePipeline> createGraphicsPipeline(const Device& device, const GraphicsDescription& description)
 {
     const ConstantValues constants(description.constants);
-    HEARTH_ASSIGN_OR_RETURN(const Stage vertex,
-                            Stage::create(device, VK_SHADER_STAGE_VERTEX_BIT, description.vertex, constants));
-    Stage fragment;
-    std::vector<VkPipelineShaderStageCreateInfo> stages = {vertex.info()};
-    if (!description.fragment.empty())
+    std::vector<Stage> created;
+    std::vector<VkPipelineShaderStageCreateInfo> stages;
+    const auto add_stage = [&](VkShaderStageFlagBits stage, std::span<const uint32_t> spirv) -> Status
     {
-        HEARTH_ASSIGN_OR_RETURN(
-            fragment, Stage::create(device, VK_SHADER_STAGE_FRAGMENT_BIT, description.fragment, constants));
-        stages.push_back(fragment.info());
-    }
+        const std::vector<uint32_t> moved =
+            description.one_set ? moveToOneSet(spirv) : std::vector<uint32_t>{};
+        HEARTH_ASSIGN_OR_RETURN(Stage added,
+                                Stage::create(device, stage, description.one_set ? moved : spirv, constants));
+        stages.push_back(added.info());
+        created.push_back(std::move(added));
+        return success();
+    };
+    HEARTH_TRY(add_stage(VK_SHADER_STAGE_VERTEX_BIT, description.vertex));
+    if (!description.fragment.empty())
+        HEARTH_TRY(add_stage(VK_SHADER_STAGE_FRAGMENT_BIT, description.fragment));
     VkPipelineVertexInputStateCreateInfo vertex_input{};
     vertex_input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
     VkPipelineInputAssemblyStateCreateInfo assembly{};

@@ -76,6 +76,7 @@ struct GraphicsDescription
     std::span<const uint32_t> vertex;
     std::span<const uint32_t> fragment; ///< empty: depth and stencil alone
     VkPipelineLayout layout;
+    bool one_set = false; ///< the layout has all descriptors in its set 0, whichever sets the shaders name
     VkRenderPass render_pass;
     uint32_t subpass;
     VkCullModeFlags cull = VK_CULL_MODE_NONE;

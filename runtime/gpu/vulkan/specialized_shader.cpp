@@ -357,8 +357,8 @@ private:
         return result;
     }
 
-    /// Return what is known of the condition of a block's conditional branch. That of a branch back to the head of
-    /// a loop counts as one that varies, since each loop must have such a branch.
+    /// Return what is known of the condition of a block's conditional branch. That of a branch back to
+    /// the head of a loop counts as one that varies, since each loop must have such a branch.
     Known knownCondition(const Block& block) const
     {
         const auto leads_back = [&](uint32_t target)
@@ -470,15 +470,16 @@ private:
         return opcode(block.end) != kOpBranchConditional || knownCondition(block).state != Known::State::bits;
     }
 
-    /// True if the block still declares where its construct ends: a selection whose condition is known is no
-    /// construct any more. A switch stays one, since blocks within it may leave it from inside other constructs.
+    /// True if the block still declares where its construct ends: a selection whose condition is known
+    /// is no construct any more. A switch stays one, since blocks within it may leave it from inside
+    /// other constructs.
     bool keepsMerge(const Block& block) const
     {
         return !block.merge.empty() && (opcode(block.merge) == kOpLoopMerge || keepsCondition(block));
     }
 
-    /// Return the labels of the blocks to keep, dominators first: those that are reached, and blocks where
-    /// constructs end and loops continue.
+    /// Return the labels of the blocks to keep, dominators first: those that are reached, and blocks
+    /// where constructs end and loops continue.
     std::vector<uint32_t> structuredOrder() const
     {
         struct Visit
@@ -605,6 +606,15 @@ std::optional<std::vector<uint32_t>> specializeShader(std::span<const uint32_t> 
 {
     HEARTH_ASSERT(spirv.size() > kHeaderWords);
     return Specializer(spirv, constants).run();
+}
+
+std::vector<uint32_t> moveToOneSet(std::span<const uint32_t> spirv)
+{
+    std::vector<uint32_t> moved(spirv.begin(), spirv.end());
+    for (size_t at = kHeaderWords; at < moved.size(); at += moved[at] >> 16)
+        if (opcode(spirv.subspan(at)) == kOpDecorate && moved[at + 2] == kDecorationDescriptorSet)
+            moved[at + 3] = 0;
+    return moved;
 }
 
 } // namespace hearth::gpu

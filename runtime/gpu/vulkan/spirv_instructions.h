@@ -1,5 +1,5 @@
-// Instructions of SPIR-V modules, as far as specialization needs to know them. SPIR-V Specification 1.3, 3.32,
-// "Instructions".
+// Instructions of SPIR-V modules, as far as specialization needs to know them. SPIR-V Specification
+// 1.3, 3.32, "Instructions".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -92,6 +92,7 @@ enum Opcode : uint32_t
 
 constexpr uint32_t kHeaderWords = 5;
 constexpr uint32_t kDecorationSpecId = 1;
+constexpr uint32_t kDecorationDescriptorSet = 34;
 constexpr uint32_t kExtendedModf = 35; // of GLSL.std.450: these two write through a pointer
 constexpr uint32_t kExtendedFrexp = 51;
 

@@ -4,6 +4,7 @@
 #include "runtime/gpu/receivers/receiver_pass.h"
 #include "runtime/gpu/statistics/cull_statistics_pass.h"
 #include "runtime/gpu/statistics/light_statistics_pass.h"
+#include "runtime/gpu/vulkan/specialized_shader.h"
 #include "runtime/viewer/vulkan_host.h"
 #include "tests/runtime/gpu/brick_scene.h"
 #include "tests/runtime/gpu/deformed_scene.h"
@@ -86,9 +87,15 @@ protected:
         EXPECT_TRUE(gpu::ReceiverPass::create(*device).ok());
         both_ = {{}, recordedPipelines(), sharedStructs(), constantIds()};
         for (const ListedShader& shader : listedShaders())
-            both_.shaders.push_back({shader.name,
-                                     {shader.words.begin(), shader.words.end()},
-                                     reflectShader(readWords(shader.named_file))});
+        {
+            const std::vector<uint32_t> named = readWords(shader.named_file);
+            both_.shaders.push_back(
+                {shader.name, {shader.words.begin(), shader.words.end()}, reflectShader(named)});
+            const std::vector<uint32_t> moved = gpu::moveToOneSet(shader.words);
+            if (moved != both_.shaders.back().words && isRecorded(moved))
+                both_.shaders.push_back({std::string(shader.name) + " of one set", moved,
+                                         reflectShader(gpu::moveToOneSet(named))});
+        }
     }
 
     void uploadAll(gpu::Renderer& recorded)
@@ -150,6 +157,16 @@ protected:
                                    [](std::array<uint32_t, 3>, uint32_t) { return FaceLook{}; }));
         const formats::PackView pack = test.build();
         prepareLights(recorded, *uploadWith(recorded, pack, {.shadows = shadows}));
+    }
+
+    static bool isRecorded(const std::vector<uint32_t>& words)
+    {
+        return std::any_of(recordedPipelines().begin(), recordedPipelines().end(),
+                           [&](const RecordedPipeline& pipeline)
+                           {
+                               return std::any_of(pipeline.stages.begin(), pipeline.stages.end(),
+                                                  [&](const RecordedStage& s) { return s.words == words; });
+                           });
     }
 
     /// The first recorded pipeline that has this shader.

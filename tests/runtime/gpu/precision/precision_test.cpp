@@ -68,9 +68,9 @@ const std::map<std::string, double>& relaxedShares()
 /// Return the name of a shader without that of its way through a frame.
 std::string baseName(std::string name)
 {
-    for (const std::string_view variant : {"_sampled", "_one_set"})
-        if (const size_t at = name.find(variant); at != std::string::npos)
-            name.erase(at, variant.size());
+    constexpr std::string_view kVariant = "_sampled";
+    if (const size_t at = name.find(kVariant); at != std::string::npos)
+        name.erase(at, kVariant.size());
     return name;
 }
 
