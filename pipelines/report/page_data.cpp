@@ -179,9 +179,10 @@ Json makeMeshes(const Json& asset)
     return clusters.is_object() ? getElements(clusters, "meshes") : Json::array();
 }
 
-std::string dataUri(const std::string& jpeg)
+/// type  "jpeg" or "png"
+std::string dataUri(const std::string& image, const std::string& type)
 {
-    return jpeg.empty() ? "" : "data:image/jpeg;base64," + base64(jpeg);
+    return image.empty() ? "" : "data:image/" + type + ";base64," + base64(image);
 }
 
 } // namespace
@@ -249,15 +250,24 @@ std::vector<PackMesh> importantMeshes(const std::string& report_text)
     return meshes;
 }
 
-std::string imagesData(const Images& images)
+std::string imagesData(const Images& images, const std::vector<LightImage>& light)
 {
     Json data{{"views", images.views},    {"is_sheet", images.is_sheet}, {"scene", Json::array()},
               {"meshes", Json::object()}, {"left_out", images.left_out}, {"why", images.why_left_out}};
     for (const std::string& jpeg : images.scene)
-        data["scene"].push_back(dataUri(jpeg));
+        data["scene"].push_back(dataUri(jpeg, "jpeg"));
     for (const auto& [mesh, jpegs] : images.meshes)
         for (const std::string& jpeg : jpegs)
-            data["meshes"][std::to_string(mesh)].push_back(dataUri(jpeg));
+            data["meshes"][std::to_string(mesh)].push_back(dataUri(jpeg, "jpeg"));
+    data["light"] = Json::array();
+    for (const LightImage& image : light)
+    {
+        Json facts = Json::array();
+        for (const auto& [name, value] : image.facts)
+            facts.push_back(Json::array({name, value}));
+        data["light"].push_back(
+            {{"name", image.name}, {"picture", dataUri(image.png, "png")}, {"facts", facts}});
+    }
     return data.dump();
 }
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "pipelines/report/images.h"
+#include "pipelines/report/light_images.h"
 
 #include <string>
 #include <vector>
@@ -21,6 +22,6 @@ std::string pageData(const std::string& report);
 std::vector<PackMesh> importantMeshes(const std::string& report);
 
 /// Return the images as JSON with data URIs, and the number of meshes without one.
-std::string imagesData(const Images& images);
+std::string imagesData(const Images& images, const std::vector<LightImage>& light = {});
 
 } // namespace hearth::report

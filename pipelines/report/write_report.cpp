@@ -23,7 +23,9 @@ Status writeReport(const std::string& json, const std::string& path, const std::
             const std::string data = pageData(json);
             const Images images =
                 pack.empty() ? Images{} : renderImages(pack, importantMeshes(json), progress);
-            return writeText(path, reportPage(data, imagesData(images)));
+            const std::vector<LightImage> light =
+                pack.empty() ? std::vector<LightImage>{} : drawLightOfPack(pack);
+            return writeText(path, reportPage(data, imagesData(images, light)));
         }
         if (path.ends_with(".xml"))
             return writeText(path, junitXml(json));

@@ -149,6 +149,7 @@ const std::vector<Layer>& layers()
         {"pipelines/verify", {"formats", "cook/json"}},
         {"pipelines/link", {"formats", "cook/command_line", "cook/json", "pipelines/verify"}},
         {"pipelines/texture_files", {"formats"}},
+        {"pipelines/light_pictures", {"formats", "pipelines/texture_files"}},
         {"pipelines/schemas", {}},
         {"pipelines/cache", {"formats", "cook/tools"}},
         {"pipelines/settings", {"formats", "cook/json", "cook/tools", "pipelines/cache"}},
@@ -162,7 +163,9 @@ const std::vector<Layer>& layers()
         {"pipelines/farm",
          {"formats", "cook/json", "cook/tools", "pipelines/cache", "pipelines/cookers", "pipelines/graph",
           "pipelines/profiles"}},
-        {"pipelines/report", {"formats", "cook/json", "cook/tools", "pipelines/cookers", "pipelines/graph"}},
+        {"pipelines/report",
+         {"formats", "cook/json", "cook/tools", "pipelines/cookers", "pipelines/graph",
+          "pipelines/light_pictures"}},
 
         // the hearth command
         {"pipelines/command/shell",
@@ -179,7 +182,8 @@ const std::vector<Layer>& layers()
           "pipelines/command/shell", "pipelines/command/cook"}},
         {"pipelines/command/inspect",
          {"formats", "cook/json", "cook/tools", "pipelines/graph", "pipelines/report", "pipelines/verify",
-          "pipelines/texture_files", "pipelines/command/shell", "pipelines/command/cook"}},
+          "pipelines/light_pictures", "pipelines/texture_files", "pipelines/command/shell",
+          "pipelines/command/cook"}},
         {"pipelines/command",
          {"formats", "cook/json", "cook/tools", "pipelines/cache", "pipelines/cookers",
           "pipelines/command/shell", "pipelines/command/cook"}},

@@ -3,9 +3,8 @@
 
 #include "formats/base/atomic_file.h"
 #include "formats/pack/pack_check.h"
-#include "formats/texels/shared_exponent.h"
-#include "pipelines/command/inspect/light_picture.h"
 #include "pipelines/command/inspect/open_pack.h"
+#include "pipelines/light_pictures/probe_picture.h"
 
 #include <fmt/format.h>
 
@@ -20,39 +19,6 @@ using namespace formats;
 namespace
 {
 
-constexpr uint32_t kFaces = 6;
-
-/// Mips of a probe, decoded.
-struct ProbeMips
-{
-    const ProbeRecord& record;
-    std::vector<std::vector<Float3>> mips; ///< face, row, column
-
-    uint32_t side(size_t mip) const { return finestProbeSide(record) >> mip; }
-    double roughness(size_t mip) const
-    {
-        return mip < record.sharp_mips
-                   ? 0
-                   : probeMipRoughness(static_cast<uint32_t>(mip) - record.sharp_mips, record.mip_count);
-    }
-};
-
-ProbeMips decodeMips(const PackView& file, const ProbeRecord& record)
-{
-    ProbeMips decoded{record, {}};
-    const uint32_t* word = file.probeTexels().data() + record.texels.first;
-    for (uint32_t mip = 0; mip < countProbeMips(record); ++mip)
-    {
-        std::vector<Float3>& texels = decoded.mips.emplace_back();
-        for (size_t count = size_t{kFaces} * decoded.side(mip) * decoded.side(mip); count > 0; --count)
-        {
-            const std::array<float, 3> color = decodeSharedExponent(*word++);
-            texels.push_back({color[0], color[1], color[2]});
-        }
-    }
-    return decoded;
-}
-
 /// Return the solid angle of a texel, up to a factor: the density at its middle.
 double weighTexel(uint32_t side, size_t texel)
 {
@@ -61,7 +27,7 @@ double weighTexel(uint32_t side, size_t texel)
     return std::pow(1 + a * a + b * b, -1.5);
 }
 
-std::string makeTable(const ProbeMips& probe)
+std::string makeTable(const light_pictures::ProbeMips& probe)
 {
     std::string text = "mip,side,roughness,mean_r,mean_g,mean_b,least,greatest\n";
     for (size_t mip = 0; mip < probe.mips.size(); ++mip)
@@ -87,27 +53,6 @@ std::string makeTable(const ProbeMips& probe)
     return text;
 }
 
-/// Lay out the six faces of a mip side by side, the mips below each other.
-LightPicture layOut(const ProbeMips& probe)
-{
-    LightPicture picture{kFaces * probe.side(0), 0, {}};
-    for (size_t mip = 0; mip < probe.mips.size(); ++mip)
-        picture.height += probe.side(mip);
-    picture.texels.resize(size_t{picture.width} * picture.height);
-    size_t top = 0;
-    for (size_t mip = 0; mip < probe.mips.size(); ++mip)
-    {
-        const size_t side = probe.side(mip);
-        for (size_t i = 0; i < probe.mips[mip].size(); ++i)
-        {
-            const size_t face = i / (side * side), row = i / side % side, column = i % side;
-            picture.texels[(top + row) * picture.width + face * side + column] = probe.mips[mip][i];
-        }
-        top += side;
-    }
-    return picture;
-}
-
 } // namespace
 
 Status extractProbe(const std::string& path, uint32_t index, const std::string& output)
@@ -120,9 +65,9 @@ Status extractProbe(const std::string& path, uint32_t index, const std::string& 
         return Error{
             Issue::usage, path, "",
             fmt::format("there is no probe {}: the last one is {}", index, file.probes().size() - 1)};
-    const ProbeMips probe = decodeMips(file, file.probes()[index]);
-    if (isPictureName(output))
-        return writePicture(output, layOut(probe), std::numbers::pi);
+    const light_pictures::ProbeMips probe = light_pictures::decodeMips(file, file.probes()[index]);
+    if (light_pictures::isPictureName(output))
+        return light_pictures::writePicture(output, light_pictures::drawProbe(probe), std::numbers::pi);
     if (!output.ends_with(".csv"))
         return Error{Issue::usage, output, "", "a probe is written as .csv, .exr or .png"};
     HEARTH_ASSIGN_OR_RETURN(AtomicFile out, AtomicFile::create(output));

@@ -72,7 +72,7 @@ function showPage() {
   const slow = slowSection(data, go);
   const timeline = timelineSection(data, go);
   const parts = [failuresSection(data), totalsSection(data), sceneSection(images), assets.part, sizesSection(data, go), meshes && meshes.part, textures && textures.part,
-                 receiversSection(data), slow, timeline.part, causesSection(data), messagesSection(data, go)].filter(Boolean);
+                 receiversSection(data), lightSection(images), slow, timeline.part, causesSection(data), messagesSection(data, go)].filter(Boolean);
   $('main').replaceChildren(...parts);
 
   const ok = data.status === 'ok';

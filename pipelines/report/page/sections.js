@@ -289,6 +289,15 @@ function receiversSection(data) {
     el('dl', {}, ...[...figures, ...without].flatMap(([name, text]) => [el('dt', {}, name), el('dd', {}, text)])));
 }
 
+/** Shows what probes see and the light that receivers have; nothing in packs without both. */
+function lightSection(images) {
+  const light = images.light || [];
+  if (!light.length) return null;
+  return section('light', 'Baked light', 'faces of a probe are +X, -X, +Y, -Y, +Z, -Z; each row of them is a rougher reflection', el('div.light', {}, light.map(item =>
+    el('figure', {}, el('img', {src: item.picture, alt: item.name, loading: 'lazy'}),
+       el('figcaption', {}, el('b', {}, item.name), item.facts.map(([name, value]) => ` · ${name} ${value}`).join(''))))));
+}
+
 /** Lists all uses of an image, one a line. */
 const usesText = texture => texture.uses.map(([material, role]) => `${material || '(no name)'} · ${role}`).join('\n');
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/command/inspect/light_picture.h"
+#include "pipelines/light_pictures/light_picture.h"
 
 #include "formats/base/atomic_file.h"
 #include "pipelines/texture_files/exr_writer.h"
 #include "pipelines/texture_files/png_writer.h"
 
+#include <algorithm>
 #include <cmath>
 
-namespace hearth::command
+namespace hearth::light_pictures
 {
 
 namespace
@@ -21,6 +22,8 @@ uint8_t displayCode(double value)
     return static_cast<uint8_t>(255 * code + 0.5);
 }
 
+} // namespace
+
 std::vector<std::byte> encodePng(const LightPicture& picture, double factor)
 {
     std::vector<uint8_t> codes;
@@ -30,7 +33,22 @@ std::vector<std::byte> encodePng(const LightPicture& picture, double factor)
     return texture_files::writePng(picture.width, picture.height, codes);
 }
 
-} // namespace
+LightPicture shrink(const LightPicture& picture, uint32_t factor)
+{
+    LightPicture small{(picture.width + factor - 1) / factor, (picture.height + factor - 1) / factor, {}};
+    for (uint32_t y = 0; y < small.height; ++y)
+        for (uint32_t x = 0; x < small.width; ++x)
+        {
+            const uint32_t right = std::min((x + 1) * factor, picture.width);
+            const uint32_t bottom = std::min((y + 1) * factor, picture.height);
+            Float3 sum;
+            for (uint32_t from_y = y * factor; from_y < bottom; ++from_y)
+                for (uint32_t from_x = x * factor; from_x < right; ++from_x)
+                    sum += picture.texels[size_t{from_y} * picture.width + from_x];
+            small.texels.push_back(sum / static_cast<float>((right - x * factor) * (bottom - y * factor)));
+        }
+    return small;
+}
 
 bool isPictureName(const std::string& output)
 {
@@ -46,4 +64,4 @@ Status writePicture(const std::string& output, const LightPicture& picture, doub
     return out.finish();
 }
 
-} // namespace hearth::command
+} // namespace hearth::light_pictures

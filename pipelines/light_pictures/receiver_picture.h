@@ -1,0 +1,14 @@
+// Draws the atlas of receivers.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "formats/pack/pack_view.h"
+#include "pipelines/light_pictures/light_picture.h"
+
+namespace hearth::light_pictures
+{
+
+/// Draw the irradiance of all lamps under full weights; texels of no surface are black.
+LightPicture drawReceivers(const formats::ReceiverTables& tables);
+
+} // namespace hearth::light_pictures
