@@ -31,6 +31,8 @@ Status checkLocalProbe(const PackView& view, size_t i, const ProbeRecord& probe)
         return wrong("its fade distance is not possible");
     if (!finite(std::span<const float>(probe.sky_share)))
         return wrong("its share of the sky is not finite");
+    if (!finite(std::span<const float>(probe.lamp_harmonics)))
+        return wrong("a harmonic of lamps is not finite");
     return success();
 }
 
@@ -39,7 +41,8 @@ bool hasNoPlace(const ProbeRecord& probe)
     const auto is_zero = [](float value) { return value == 0; };
     return probe.position == Float3{} && probe.box_min == Float3{} && probe.box_max == Float3{} &&
            probe.influence_min == Float3{} && probe.influence_max == Float3{} && probe.fade == 0 &&
-           std::ranges::all_of(probe.sky_share, is_zero);
+           std::ranges::all_of(probe.sky_share, is_zero) &&
+           std::ranges::all_of(probe.lamp_harmonics, is_zero);
 }
 
 Status checkProbe(const PackView& view, size_t i, const ProbeRecord& probe)

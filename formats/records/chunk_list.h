@@ -111,7 +111,7 @@ inline constexpr std::array kChunkList{
                                        "parts only: where their groups can be"),
     makeTableInfo<SpecularTableRecord>(kChunkSpecular, 1, ChunkPurpose::light,
                                        "the table of specular occlusion, one at most"),
-    makeTableInfo<ProbeRecord>(kChunkProbes, 2, ChunkPurpose::light, "light probes"),
+    makeTableInfo<ProbeRecord>(kChunkProbes, 3, ChunkPurpose::light, "light probes"),
     ChunkInfo{kChunkProbeTexels, 1, ChunkPurpose::light, "u32[]", false,
               "of all probes: RGB9E5 by mip, face, row and column"},
     makeTableInfo<ReceiverAtlasRecord>(kChunkReceivers, 1, ChunkPurpose::light,

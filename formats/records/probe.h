@@ -50,7 +50,8 @@ struct ProbeRecord
     Float3 influence_max;
     float fade;
     float sky_share[4];
-    uint32_t reserved[3];
+    float lamp_harmonics[9];
+    uint32_t reserved[2];
 };
 
 /// Return whether a probe is one within the scene.
@@ -89,7 +90,7 @@ constexpr uint32_t countProbeMips(const ProbeRecord& probe)
 
 } // namespace hearth::formats
 
-HEARTH_RECORD(hearth::formats::ProbeRecord, 256,
+HEARTH_RECORD(hearth::formats::ProbeRecord, 288,
               HEARTH_FIELD(hearth::formats::ProbeRecord, face_size,
                            "texels of an edge of the mip of roughness 0, a power of two"),
               HEARTH_FIELD(hearth::formats::ProbeRecord, mip_count, "from roughness 0 to 1; 2 or more"),
@@ -124,4 +125,7 @@ HEARTH_RECORD(hearth::formats::ProbeRecord, 256,
               HEARTH_FIELD(hearth::formats::ProbeRecord, sky_share,
                            "cosine-weighted share of the sky that it sees about a normal n: "
                            "dot(xyz, n) + w"),
+              HEARTH_FIELD(hearth::formats::ProbeRecord, lamp_harmonics,
+                           "coefficients of the light that lamps but suns send to it without a bounce: "
+                           "luminance over Y(E_probe), as radiance"),
               HEARTH_FIELD(hearth::formats::ProbeRecord, reserved, "0"));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/scene/local_probes.h"
 
+#include "formats/scene/scene_lighting.h"
+
 #include <algorithm>
 
 namespace hearth::shared
@@ -80,8 +82,11 @@ LocalProbes makeLocalProbes(std::span<const ProbeRecord> probes)
                        .sky_share = {record.sky_share[0], record.sky_share[1], record.sky_share[2],
                                      record.sky_share[3]}};
         for (size_t i = 0; i < table.harmonics.size(); ++i)
-            table.harmonics[i] = {record.harmonics[3 * i], record.harmonics[3 * i + 1],
-                                  record.harmonics[3 * i + 2], 0};
+        {
+            const Float3 color{record.harmonics[3 * i], record.harmonics[3 * i + 1],
+                               record.harmonics[3 * i + 2]};
+            table.harmonics[i] = {color.x, color.y, color.z, luminance(color) + record.lamp_harmonics[i]};
+        }
         local.tables.push_back(table);
     }
     return local;

@@ -18,7 +18,8 @@ namespace hearth::shared
 struct LocalProbeTable
 {
     LocalProbe probe;
-    std::array<Float4, kSkyHarmonics> harmonics; ///< of radiance over LocalProbe::irradiance; w is 0
+    std::array<Float4, kSkyHarmonics>
+        harmonics; ///< of radiance over LocalProbe::irradiance; w: its luminance with that of lamps
 };
 static_assert(sizeof(LocalProbeTable) == 16 * kLocalProbeRows);
 

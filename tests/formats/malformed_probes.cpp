@@ -92,6 +92,14 @@ const std::vector<MalformedPack>& malformedProbes()
              makeLocal(p.probes[0]);
              p.probes[0].sky_share[3] = std::numeric_limits<float>::infinity();
          }},
+        {"probeLampHarmonic", Issue::meaning_value, "probe 0",
+         [](PackModel& p)
+         {
+             makeLocal(p.probes[0]);
+             p.probes[0].lamp_harmonics[8] = std::numeric_limits<float>::quiet_NaN();
+         }},
+        {"probeLampHarmonicOfASky", Issue::meaning_padding, "probe 0",
+         [](PackModel& p) { p.probes[0].lamp_harmonics[0] = 1; }},
         {"probeLocalOfAnotherSize", Issue::meaning_value, "probe 1",
          [](PackModel& p)
          {

@@ -65,7 +65,9 @@ Capture captureRadiance(const Surfaces& surfaces, const shared::SceneLighting& l
                         const std::optional<Environment>& sky, Float3 position, uint32_t side)
 {
     const PathLight light(surfaces, lighting);
-    Capture capture{{Layout::cube, side, side, std::vector<Float3>(size_t{6} * side * side)}, {}, 0};
+    Capture capture{.radiance = {Layout::cube, side, side, std::vector<Float3>(size_t{6} * side * side)},
+                    .sky_share = {},
+                    .lamp_harmonics = light.lampHarmonics(position)};
     std::vector<TexelSight> sights(capture.radiance.texels.size());
     const auto shootTexel = [&](size_t i)
     {

@@ -12,9 +12,10 @@ namespace hearth::reflections
 
 struct Capture
 {
-    environment::Environment radiance; ///< a cube
-    Float4 sky_share;                  ///< as formats::ProbeRecord
-    double black_share = 0;            ///< of all directions: those in which backs of surfaces are met
+    environment::Environment radiance;                            ///< a cube
+    Float4 sky_share;                                             ///< as formats::ProbeRecord
+    std::array<float, formats::kLightHarmonics> lamp_harmonics{}; ///< PathLight::lampHarmonics
+    double black_share = 0; ///< of all directions: those in which backs of surfaces are met
 };
 
 /// Capture the radiance around a position. The same for any number of threads.

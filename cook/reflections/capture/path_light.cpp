@@ -113,4 +113,23 @@ Float3 PathLight::leaving(const SurfaceHit& hit, float footprint, uint64_t seed)
     return surface.emission * lighting_.exposure + surface.albedo * (irradiance / kPi + indirect);
 }
 
+std::array<float, formats::kLightHarmonics> PathLight::lampHarmonics(Float3 position) const
+{
+    std::array<float, formats::kLightHarmonics> sum{};
+    uint64_t ray_count = 0;
+    for (size_t i = 0; i < lights_.lamps.size(); ++i)
+    {
+        const shared::Light& lamp = lights_.lamps[i].light;
+        if (lamp.type == shared::kLightDirectional)
+            continue;
+        const Float3 direction = normalizeOr(lamp.position - position, {0, 1, 0});
+        const float irradiance =
+            shared::luminance(first_.at(i, {position, direction, direction}, i, ray_count));
+        const std::array<float, formats::kLightHarmonics> basis = shared::evaluateHarmonics(direction);
+        for (size_t h = 0; h < sum.size(); ++h)
+            sum[h] += irradiance * basis[h];
+    }
+    return sum;
+}
+
 } // namespace hearth::reflections

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "cook/reflections/capture/surfaces.h"
+#include "formats/scene/radiance_transfer.h"
 #include "formats/scene/scene_lighting.h"
 
 namespace hearth::reflections
@@ -22,6 +23,10 @@ public:
     /// footprint  metres of the surface that the ray stands for
     /// seed       of the ray
     Float3 leaving(const SurfaceHit& hit, float footprint, uint64_t seed) const;
+
+    /// Return the harmonics (shared::evaluateHarmonics) of the light that lamps but suns send to a
+    /// position without a bounce, as radiance from their directions: its luminance, exposed.
+    std::array<float, formats::kLightHarmonics> lampHarmonics(Float3 position) const;
 
 private:
     Float3 arriving(SurfaceHit from, uint32_t path, uint64_t seed) const;

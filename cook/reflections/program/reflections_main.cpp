@@ -98,6 +98,8 @@ void setPlace(const ProbePlace& place, const Box3& box, const Capture& capture, 
     const Float4 share = capture.sky_share;
     const float values[] = {share.x, share.y, share.z, share.w};
     std::ranges::copy(values, record.sky_share);
+    std::ranges::transform(capture.lamp_harmonics, record.lamp_harmonics,
+                           [&](float value) { return value / record.irradiance_luminance; });
 }
 
 /// Cook a probe, and name it in messages by its number and its text.

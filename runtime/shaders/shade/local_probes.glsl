@@ -19,6 +19,17 @@ LocalProbe localProbe(uint row)
 
 mediump vec3 probeHarmonic(uint row, uint i) { return uintBitsToFloat(light_rows[row + kFirstProbeHarmonic + i].xyz); }
 
+// Luminance of the mean radiance over a wide cone, with that of lamps, which no texel has.
+mediump float probeLitConeLuminance(uint row, LightCone cone)
+{
+    vec3 sums[9];
+    for (uint i = 0u; i < 9u; ++i)
+        sums[i] = vec3(uintBitsToFloat(light_rows[row + kFirstProbeHarmonic + i].w));
+    RadianceHarmonics harmonics =
+        RadianceHarmonics(sums[0], sums[1], sums[2], sums[3], sums[4], sums[5], sums[6], sums[7], sums[8]);
+    return harmonicConeRadiance(harmonics, cone.axis, cone.cos_half_angle).x;
+}
+
 // Mean radiance over a wide cone.
 mediump vec3 probeConeRadiance(uint row, LightCone cone)
 {
@@ -53,7 +64,8 @@ mediump vec3 probeMirror(LocalProbe probe, uint row, vec3 position, vec3 mirror,
 }
 
 // Light of one probe that a surface reflects. What the probe sees is part of its light: of the cones of
-// visibility counts only what they hide beyond that.
+// visibility counts only what they hide beyond that. A surface with baked light has all occlusion in it, and
+// what it reflects follows its lamps.
 vec3 probeLight(LocalProbe probe, uint row, SurfacePoint point, Shading shading, Layers layers,
                 mediump float occlusion)
 {
@@ -61,16 +73,24 @@ vec3 probeLight(LocalProbe probe, uint row, SurfacePoint point, Shading shading,
     vec3 mirror = reflect(-shading.to_eye, shading.normal);
     mediump float diffuse_share = occlusion;
     mediump float mirror_share = occlusion;
-    if (kSkyVisibility)
+    if (kSkyVisibility && !point.received.is_known)
     {
         SkyView sky = skyView(point, shading.normal, kTextureNormal);
         diffuse_share = min(occlusion, openShare(diffuseSky(sky), probeSkyShare(probe, shading.normal)));
         mirror_share = min(occlusion, openShare(specularSky(sky, shading.roughness, shading.n_dot_v, mirror),
                                                 probeSkyShare(probe, mirror)));
     }
-    mediump vec3 own = probeConeRadiance(row, cosineCone(shading.normal));
+    LightCone hemisphere = cosineCone(shading.normal);
+    mediump vec3 own = probeConeRadiance(row, hemisphere);
+    mediump float own_luminance = luminance(own);
     mediump vec3 diffuse = probe.irradiance * own; // irradiance / pi at the surface, before occlusion
-    float factor = localProbeFactor(kPi * luminance(diffuse), kPi * luminance(own));
+    if (point.received.is_known)
+    {
+        diffuse = point.received.mean_radiance;
+        diffuse_share = 1.0;
+        own_luminance = probeLitConeLuminance(row, hemisphere);
+    }
+    float factor = localProbeFactor(kPi * luminance(diffuse), kPi * own_luminance);
     vec3 radiance = shading.albedo.diffuse * (diffuse_share * diffuse) +
                     shading.albedo.specular * (mirror_share * factor *
                         probeMirror(probe, row, position, mirror, shading.normal, shading.roughness,

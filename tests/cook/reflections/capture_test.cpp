@@ -120,6 +120,14 @@ TEST_F(CaptureTest, floorUnderALampHasItsIlluminance)
         EXPECT_NEAR(found, double{albedo.x} * (illuminance / std::numbers::pi + sky),
                     0.05 * found + 0.1 * double{albedo.x} * sky);
     }
+    // the lamp itself: I / d^2 from 1.118 m, times the harmonics of its direction, which no radiance has
+    const Double3 to_lamp{0.5, 1, 0};
+    const double distance = length(to_lamp);
+    const double irradiance = double{lighting_.lights[0].intensity.y} / (distance * distance);
+    EXPECT_NEAR(seen.lamp_harmonics[0], irradiance * 0.282095, 0.001 * irradiance);
+    EXPECT_NEAR(seen.lamp_harmonics[1], irradiance * 0.488603 * to_lamp.y / distance, 0.001 * irradiance);
+    EXPECT_NEAR(seen.lamp_harmonics[2], irradiance * 0.488603 * to_lamp.x / distance, 0.001 * irradiance);
+    EXPECT_NEAR(seen.lamp_harmonics[3], 0, 0.001 * irradiance);
     EXPECT_NEAR(seen.sky_share.w, 0.5, 0.03) << "the upper half";
     EXPECT_NEAR(seen.sky_share.w + seen.sky_share.y, 1, 0.03) << "about the normal of the floor";
     EXPECT_NEAR(seen.sky_share.x, 0, 0.01);
@@ -132,6 +140,7 @@ TEST_F(CaptureTest, openSkyIsSeenAsItIs)
     addObject(document, "crumb", {{makeBox({100, 0, 0}, {0.01f, 0.01f, 0.01f}, 1), paint}});
     read(document);
     const Capture seen = capture({});
+    EXPECT_EQ(seen.lamp_harmonics, (std::array<float, 9>{}));
     for (uint32_t i = 0; i < kSide * kSide; ++i)
     {
         const environment::PanelArea area = seen.radiance.area(i % kSide, i / kSide);

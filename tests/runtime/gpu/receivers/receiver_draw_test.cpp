@@ -2,6 +2,7 @@
 // all light methods.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/base/half.h"
+#include "formats/texels/shared_exponent.h"
 #include "runtime/pack/receivers/receiver_light.h"
 #include "tests/runtime/gpu/brick_scene.h"
 #include "tests/runtime/gpu/frame/stage_spy.h"
@@ -9,6 +10,7 @@
 #include "tests/runtime/gpu/receivers/receiver_room.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 
 namespace hearth::test
@@ -133,6 +135,40 @@ protected:
         for (uint32_t i = 0; i < lamps; ++i)
             dark.weights.push_back(gpu::weighLight(live, i, {}).value());
         return difference(lit, drawRadiance(live, dark));
+    }
+
+    /// Let a probe of white light from everywhere surround the room.
+    /// irradiance      of its surroundings
+    /// lamp_irradiance  of lamps, the same about every normal, as a share of that
+    static void setProbe(ReceiverRoom& room, float irradiance, float lamp_irradiance = 0)
+    {
+        constexpr float kRadiance = 1 / std::numbers::pi_v<float>;
+        const float constant = kRadiance * std::sqrt(4 * std::numbers::pi_v<float>);
+        formats::ProbeRecord probe{};
+        probe.face_size = 4;
+        probe.mip_count = 3;
+        probe.format = static_cast<uint32_t>(formats::TexelFormat::rgb9e5_float);
+        probe.flags = formats::kProbeIsLocal;
+        probe.irradiance = {irradiance, irradiance, irradiance};
+        probe.irradiance_luminance = irradiance;
+        std::fill_n(probe.harmonics, 3, constant);
+        probe.lamp_harmonics[0] = lamp_irradiance * constant;
+        probe.texels.count = static_cast<uint32_t>(formats::cubeTexelCount(4, 3));
+        probe.position = {0, 1, 0};
+        probe.box_min = probe.influence_min = {-10, -10, -10};
+        probe.box_max = probe.influence_max = {10, 10, 10};
+        probe.fade = 1;
+        PackModel& model = room.scene().model();
+        model.probes = {probe};
+        model.probe_texels.assign(
+            probe.texels.count,
+            formats::encodeSharedExponent({double{kRadiance}, double{kRadiance}, double{kRadiance}}));
+    }
+
+    static void polish(ReceiverRoom& room)
+    {
+        room.scene().model().materials[0].metallic = 1;
+        room.scene().model().materials[0].roughness = 0.4f;
     }
 
     static void addTwoLamps(ReceiverRoom& room)
@@ -316,6 +352,50 @@ TEST_F(ReceiverDrawTest, bricksGiveDiffuseLightOnlyWhereNoRectangleIs)
     const size_t sheet = static_cast<size_t>(
         std::find(instances.begin(), instances.end(), ReceiverRoom::kSheet) - instances.begin());
     EXPECT_NE(radiance[sheet], expected[sheet]) << "its diffuse light is no longer the sky's";
+}
+
+TEST_F(ReceiverDrawTest, reflectionsOfAProbeFollowTheBakedLamps)
+{
+    ReceiverRoom room(false);
+    addTwoLamps(room);
+    polish(room);
+    setProbe(room, 0.8f);
+    const auto baked = load(room.build());
+    const auto instances = drawInstances(*baked);
+    const std::vector<Float3> full = drawRadiance(*baked);
+    Changes dim;
+    for (uint32_t i = 0; i < 2; ++i)
+        dim.weights.push_back(gpu::weighLight(*baked, i, {0.5f, 0.5f, 0.5f}).value());
+    expectNear(drawRadiance(*baked, dim), scaled(full, {0.5f, 0.5f, 0.5f}), instances, 0,
+               ReceiverRoom::kWalls, 0.004);
+
+    // a probe in brighter surroundings, of which the walls have the light that they had
+    setProbe(room, 1.6f);
+    const std::vector<Float3> brighter = drawRadiance(*load(room.build()));
+    expectNear(brighter, full, instances, 0, ReceiverRoom::kWalls, 0);
+    EXPECT_NE(brighter, full) << "the sheet has no baked light";
+
+    // as much light of lamps at the probe as from all that it sees
+    setProbe(room, 0.8f, 1);
+    expectNear(drawRadiance(*load(room.build())), scaled(full, {0.5f, 0.5f, 0.5f}), instances, 0,
+               ReceiverRoom::kWalls, 0.002);
+}
+
+TEST_F(ReceiverDrawTest, aSurfaceWithTheLightOfTheProbeHasPlainImageBasedLight)
+{
+    for (const float metallic : {0.0f, 1.0f})
+    {
+        ReceiverRoom room(false);
+        room.setSteady({0.8f, 0.8f, 0.8f});
+        room.addLamp(lamp({0.2f, 2, 9}, 0)); // without light, so that the sun of empty scenes is not there
+        room.scene().model().materials[0].metallic = metallic;
+        room.scene().model().materials[0].roughness = 0.3f;
+        setProbe(room, 0.8f);
+        const auto live = load(room.buildLive());
+        const auto instances = drawInstances(*live);
+        const auto baked = load(room.build());
+        expectNear(drawRadiance(*baked), drawRadiance(*live), instances, 0, ReceiverRoom::kWalls, 0.01);
+    }
 }
 
 TEST_F(ReceiverDrawTest, allMethodsDrawOneImage)
