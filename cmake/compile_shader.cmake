@@ -35,7 +35,7 @@ endif()
 
 # names cost the passes of glslc -O half their time, so the module that keeps them for tests has a few passes only
 run(${compile} ${SHADER} -o ${OUTPUT}.named)
-run(${SPIRV_OPT} --eliminate-dead-functions --eliminate-dead-variables ${OUTPUT}.named -o ${OUTPUT}.spv)
+run(${SPIRV_OPT} --eliminate-dead-functions --eliminate-dead-variables --eliminate-dead-const ${OUTPUT}.named -o ${OUTPUT}.spv)
 run(${SPIRV_OPT} --strip-debug -O --compact-ids ${OUTPUT}.named -o ${OUTPUT}.stripped)
 run(${SPIRV_VAL} --target-env vulkan1.1 ${OUTPUT}.stripped)
 file(READ ${OUTPUT}.stripped bytes HEX)
