@@ -47,7 +47,7 @@ const std::vector<MalformedPack>& malformedProbes()
         {"probeFormat", Issue::meaning_value, "probe 0", [](PackModel& p) { p.probes[0].format = 0; }},
         {"probeFlags", Issue::meaning_padding, "probe 0", [](PackModel& p) { p.probes[0].flags = 4; }},
         {"probeReserved", Issue::meaning_padding, "probe 0",
-         [](PackModel& p) { p.probes[0].reserved[2] = 1; }},
+         [](PackModel& p) { p.probes[0].reserved[1] = 1; }},
         {"probePlaceOfNone", Issue::meaning_padding, "probe 0",
          [](PackModel& p) { p.probes[0].box_max.y = 1; }},
         {"probeSkyWithin", Issue::meaning_value, "probe 0",

@@ -43,7 +43,7 @@ TEST(LightImages, showProbesAndReceivers)
     expectPng(images[0].png, 12, 3);
     EXPECT_EQ(images[0].facts[0].second, "2 × 2 texels, 2 mips");
     EXPECT_EQ(images[1].name, "receivers");
-    const formats::ReceiverAtlasRecord& atlas = smallPack().receiver_atlases[0];
+    const formats::ReceiverAtlasRecord atlas = smallPack().receiver_atlases[0];
     expectPng(images[1].png, atlas.width, atlas.height);
     const std::string data = report::imagesData({}, images);
     EXPECT_NE(data.find("data:image/png;base64,iVBORw0KGgo"), std::string::npos);
