@@ -5,6 +5,7 @@
 #include "formats/gpu_shared/specialization.h"
 #include "tests/runtime/shaders/shader_list.h"
 #include "tests/runtime/shaders/test_shaders.h"
+#include "tests/support/sanitized.h"
 
 #include <array>
 #include <gtest/gtest.h>
@@ -66,7 +67,7 @@ TEST(SpecializedShaderTest, allShadersAreValidWithAnyConstants)
     for (const ListedShader& shader : listedShaders())
     {
         with_constants += countSpecializationConstants(shader.words) > 0 ? 1 : 0;
-        for (int round = 0; round < 4; ++round)
+        for (size_t round = 0; round < trials(4); ++round)
         {
             const auto specialized = gpu::specializeShader(shader.words, randomConstants(random));
             ASSERT_TRUE(specialized.has_value()) << shader.name;
@@ -81,7 +82,7 @@ TEST(SpecializedShaderTest, allShadersAreValidWithAnyConstants)
 TEST(SpecializedShaderTest, branchesOfAllConstantsAreValid)
 {
     std::mt19937 random(2);
-    for (int round = 0; round < 300; ++round)
+    for (size_t round = 0; round < trials(300); ++round)
     {
         const auto specialized = gpu::specializeShader(shaders::branches_comp, randomConstants(random));
         ASSERT_TRUE(specialized.has_value());
