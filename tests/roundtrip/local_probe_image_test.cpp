@@ -30,8 +30,8 @@ constexpr uint32_t kSamples = 2;         ///< of a drawn pixel, along each axis
 constexpr uint32_t kPaths = 256;         ///< of each pixel
 constexpr Float3 kAt{0.2f, 1.4f, -0.3f}; ///< position of the probe, in the middle of the ball
 
-// Mean of the pixels that show the surface. A part of it is the noise of paths; measured .051 to .072 for
-// balls at the probe, .115 for a mirror 2 m away from it, and .555 for that without parallax.
+// Mean of the pixels that show the surface. A part of it is the noise of paths; measured .050 to .077 for
+// balls at the probe, .106 for a mirror 2 m away from it, and .560 for that without parallax.
 constexpr double kMaxFlip = 0.09, kMaxMirrorFlip = 0.14;
 
 Affine3 withAxes(Float3 right, Float3 up, Float3 center)

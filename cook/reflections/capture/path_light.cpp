@@ -101,7 +101,7 @@ Float3 PathLight::arriving(SurfaceHit from, uint32_t path, uint64_t seed) const
     return sum;
 }
 
-Float3 PathLight::leaving(const SurfaceHit& hit, float footprint, uint64_t seed) const
+LeavingLight PathLight::leaving(const SurfaceHit& hit, float footprint, uint64_t seed) const
 {
     if (hit.is_black)
         return {};
@@ -110,7 +110,9 @@ Float3 PathLight::leaving(const SurfaceHit& hit, float footprint, uint64_t seed)
     for (uint32_t path = 0; path < kPathsOfHit; ++path)
         indirect += arriving(hit, path, seed) / kPathsOfHit;
     const Float3 irradiance = direct(first_, hit, sampling::deriveSeed(seed, kDirectSeed));
-    return surface.emission * lighting_.exposure + surface.albedo * (irradiance / kPi + indirect);
+    return {.shown = surface.emission * lighting_.exposure + surface.albedo * irradiance / kPi,
+            .albedo = surface.albedo,
+            .bounced = indirect};
 }
 
 std::array<float, formats::kLightHarmonics> PathLight::lampHarmonics(Float3 position) const

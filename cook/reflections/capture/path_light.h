@@ -13,16 +13,26 @@ namespace hearth::reflections
 /// Paths that go on from a point which a ray from the probe meets.
 inline constexpr uint32_t kPathsOfHit = 8;
 
+/// Light that a surface sends back, exposed.
+struct LeavingLight
+{
+    Float3 shown; ///< radiance: emission, and light of lamps and shining surfaces without a bounce before
+    Float3 albedo;
+    Float3 bounced; ///< arriving irradiance over pi of all else, with the noise of few paths
+
+    Float3 radiance() const { return shown + albedo * bounced; }
+};
+
 /// Light of a scene. Use from many threads; the surfaces must outlive it.
 class PathLight
 {
 public:
     PathLight(const Surfaces& surfaces, const shared::SceneLighting& lighting);
 
-    /// Return the radiance that a surface sends back along a ray, exposed.
+    /// Return the light that a surface sends back along a ray.
     /// footprint  metres of the surface that the ray stands for
     /// seed       of the ray
-    Float3 leaving(const SurfaceHit& hit, float footprint, uint64_t seed) const;
+    LeavingLight leaving(const SurfaceHit& hit, float footprint, uint64_t seed) const;
 
     /// Return the harmonics (shared::evaluateHarmonics) of the light that lamps but suns send to a
     /// position without a bounce, as radiance from their directions: its luminance, exposed.

@@ -1,7 +1,7 @@
 // Tests which shaders compute in half precision: shading does, and nothing that decides what is visible or
 // where it is.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/gpu/frame/frame_description.h"
+#include "runtime/shaders/shaders.h"
 #include "tests/runtime/gpu/precision/relaxed_precision.h"
 #include "tests/runtime/shaders/shader_list.h"
 #include "tests/support/sanitized.h"
@@ -124,7 +124,8 @@ TEST(PrecisionTest, shadingIsRelaxed)
             }
             ++found;
         }
-    EXPECT_EQ(found, std::size(gpu::kFrameWays) * relaxedShares().size()) << "of all ways through a frame";
+    EXPECT_EQ(found, shaders::kVariantCount * relaxedShares().size())
+        << "of all ways to read the visibility buffer";
 }
 
 TEST(PrecisionTest, allElseIsFull)
