@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/reflections/capture/capture.h"
 
+#include "cook/reflections/capture/specks.h"
 #include "cook/sampling/owen_sobol.h"
 
 #include <tbb/parallel_for.h>
@@ -23,12 +24,6 @@ constexpr uint32_t kTexelRays = 4;
 /// Metres of the box behind a surface that the probe is close to.
 constexpr float kMinHalfBox = 0.01f;
 
-/// Distance in texels over which a speck is spread, and how many times the median around it makes one.
-constexpr int kSpread = 4;
-constexpr float kSpeck = 3;
-/// Specks around a texel, of 81 texels, at most: more are a bright surface.
-constexpr int kMaxSpecks = 27;
-
 /// Results of a texel: light of its rays, and shares of them.
 struct TexelSight
 {
@@ -36,44 +31,6 @@ struct TexelSight
     float sky = 0;
     float black = 0;
 };
-
-/// Spread bounced light that few paths have found by chance over the texels around, with all its energy.
-/// Light that the probe sees as it is stays where it is.
-/// sights  of a face, side x side
-void spreadSpecks(std::span<TexelSight> sights, uint32_t side)
-{
-    std::vector<Float3> spread(sights.size());
-    std::vector<float> around;
-    std::vector<size_t> places;
-    const auto count = static_cast<int>(side);
-    for (int y = 0; y < count; ++y)
-        for (int x = 0; x < count; ++x)
-        {
-            around.clear();
-            places.clear();
-            for (int row = std::max(y - kSpread, 0); row <= std::min(y + kSpread, count - 1); ++row)
-                for (int column = std::max(x - kSpread, 0); column <= std::min(x + kSpread, count - 1);
-                     ++column)
-                {
-                    places.push_back(static_cast<size_t>(row * count + column));
-                    around.push_back(shared::luminance(sights[places.back()].light.bounced));
-                }
-            const size_t at = static_cast<size_t>(y * count + x);
-            const auto middle = around.begin() + static_cast<std::ptrdiff_t>(around.size() / 2);
-            std::nth_element(around.begin(), middle, around.end());
-            const float own = shared::luminance(sights[at].light.bounced), speck = kSpeck * *middle;
-            const auto bright = std::ranges::count_if(around, [speck](float value) { return value > speck; });
-            const bool is_speck = *middle > 0 && own > speck && bright <= kMaxSpecks;
-            const float kept = is_speck ? *middle / own : 1;
-            spread[at] += sights[at].light.bounced * kept;
-            if (!is_speck)
-                continue;
-            for (const size_t place : places)
-                spread[place] += sights[at].light.bounced * ((1 - kept) / static_cast<float>(places.size()));
-        }
-    for (size_t i = 0; i < sights.size(); ++i)
-        sights[i].light.bounced = spread[i];
-}
 
 Float3 skySeen(const shared::SceneLighting& lighting, const std::optional<Environment>& sky, Float3 direction)
 {
@@ -137,10 +94,13 @@ Capture captureRadiance(const Surfaces& surfaces, const shared::SceneLighting& l
         }
     };
     tbb::parallel_for(size_t{0}, sights.size(), shootTexel);
+    std::vector<Float3> bounced;
+    for (const TexelSight& sight : sights)
+        bounced.push_back(sight.light.bounced);
     for (size_t face = 0; face < 6; ++face)
-        spreadSpecks(std::span(sights).subspan(face * side * side, size_t{side} * side), side);
-    std::ranges::transform(sights, capture.radiance.texels.begin(),
-                           [](const TexelSight& sight) { return sight.light.radiance(); });
+        spreadSpecks(std::span(bounced).subspan(face * side * side, size_t{side} * side), side);
+    for (size_t i = 0; i < sights.size(); ++i)
+        capture.radiance.texels[i] = sights[i].light.shown + sights[i].light.albedo * bounced[i];
     sumSight(capture.radiance, sights, capture);
     return capture;
 }

@@ -13,14 +13,12 @@ namespace hearth::reflections
 /// Paths that go on from a point which a ray from the probe meets.
 inline constexpr uint32_t kPathsOfHit = 8;
 
-/// Light that a surface sends back, exposed.
+/// Light that a surface sends back, exposed: its radiance is shown + albedo * bounced.
 struct LeavingLight
 {
     Float3 shown; ///< radiance: emission, and light of lamps and shining surfaces without a bounce before
     Float3 albedo;
     Float3 bounced; ///< arriving irradiance over pi of all else, with the noise of few paths
-
-    Float3 radiance() const { return shown + albedo * bounced; }
 };
 
 /// Light of a scene. Use from many threads; the surfaces must outlive it.

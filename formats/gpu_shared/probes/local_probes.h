@@ -83,9 +83,8 @@ HEARTH_FUNCTION Float3 correctParallax(HEARTH_IN(LocalProbe) probe, Float3 posit
 
 /// Return the factor from a probe's light, divided by its mean, to light at a surface.
 /// irradiance  at the surface, before occlusion; luminance
-/// own         of the probe at the surface's normal, over its mean; luminance. With that of lamps if
-/// the
-///             irradiance at the surface has it: at the probe the factor is then its mean irradiance
+/// own         of the probe at the surface's normal, over its mean; luminance. With the light of lamps if
+///             the irradiance at the surface has it: at the probe the factor is then its mean irradiance
 HEARTH_FUNCTION float localProbeFactor(float irradiance, float own)
 {
     return irradiance / max(own, kMinProbeIrradiance);

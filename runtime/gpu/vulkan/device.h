@@ -14,18 +14,18 @@
 namespace hearth::gpu
 {
 
-/// Callback for warnings about degraded results that are no error: lights left out, pages that cannot
-/// be read.
+/// Callback for warnings about degraded results that are no error: lights left out, pages that cannot be
+/// read.
 struct MessageHook
 {
     void* user = nullptr;
-    /// Gets one line, formatted like an error, on the thread of the call that finds it; must not call
-    /// the library.
+    /// Gets one line, formatted like an error, on the thread of the call that finds it; must not call the
+    /// library.
     void (*warn)(void* user, const char* message) = nullptr;
 };
 
-/// Objects that the caller created and keeps alive longer than everything created from them. Vulkan
-/// 1.1; no optional feature is required. Uses those that the caller enabled and sets the flags of.
+/// Objects that the caller created and keeps alive longer than everything created from them. Vulkan 1.1; no
+/// optional feature is required. Uses those that the caller enabled and sets the flags of.
 struct DeviceDescription
 {
     PFN_vkGetInstanceProcAddr get_instance_proc_addr = nullptr;
@@ -41,8 +41,8 @@ struct DeviceDescription
     VkPipelineCache pipeline_cache = VK_NULL_HANDLE; ///< for all pipelines
     MemoryHooks memory_hooks{};                      ///< none: the library allocates blocks of its own
     MessageHook message_hook{};
-    /// Give the driver the part of each shader that a pipeline needs (specialized_shader.h); false:
-    /// whole modules and their specialization constants, for tools that know modules by their words.
+    /// Give the driver the part of each shader that a pipeline needs (specialized_shader.h); false: whole
+    /// modules and their specialization constants, for tools that know modules by their words.
     bool specializes_shaders = true;
 };
 
@@ -53,8 +53,7 @@ struct DeviceIdentity
     std::string name;
 };
 
-/// Device of the renderer. Everything else holds a reference to it, so it must not move once it is
-/// used.
+/// Device of the renderer. Everything else holds a reference to it, so it must not move once it is used.
 struct Device
 {
     DeviceTable vk;
@@ -65,8 +64,8 @@ struct Device
     MessageHook message_hook{};
     bool specializes_shaders = true;
     bool sampler_anisotropy = false;
-    /// [TexelFormat]: textures may have the format and be filtered. Features for compressed formats
-    /// need not be enabled, but for ASTC of floats.
+    /// [TexelFormat]: textures may have the format and be filtered. Features for compressed formats need not
+    /// be enabled, but for ASTC of floats.
     std::bitset<formats::kTexelFormatEnd> texel_formats{};
     /// Compares with depth images of these formats may be bilinear, which Vulkan does not require.
     bool filters_d16 = false;
@@ -78,8 +77,7 @@ struct Device
     VkPhysicalDeviceMemoryProperties memory{};
 };
 
-/// errors: device if an entry point, a limit or a format is missing: requiredLimits(),
-/// requiredFormats().
+/// errors: device if an entry point, a limit or a format is missing: requiredLimits(), requiredFormats().
 Result<Device> makeDevice(const DeviceDescription& description,
                           std::span<const RequiredFormat> more_formats = {});
 

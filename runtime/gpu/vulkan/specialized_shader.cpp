@@ -51,11 +51,11 @@ Known compute(uint32_t op, std::span<const Known> values)
     if (op == kOpSelect && values[0].state == Known::State::bits)
         return values[values[0].bits != 0 ? 1 : 2];
 
-    const auto all_in = [&](Known::State state)
+    const auto any_in = [&](Known::State state)
     { return std::any_of(values.begin(), values.end(), [state](Known v) { return v.state == state; }); };
-    if (all_in(Known::State::varies))
+    if (any_in(Known::State::varies))
         return kVaries;
-    if (all_in(Known::State::nothing))
+    if (any_in(Known::State::nothing))
         return kNothing;
 
     const uint32_t a = values[0].bits;

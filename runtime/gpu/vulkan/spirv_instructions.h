@@ -90,11 +90,11 @@ enum Opcode : uint32_t
     kOpDecorateId = 332,
 };
 
-constexpr uint32_t kHeaderWords = 5;
-constexpr uint32_t kDecorationSpecId = 1;
-constexpr uint32_t kDecorationDescriptorSet = 34;
-constexpr uint32_t kExtendedModf = 35; // of GLSL.std.450: these two write through a pointer
-constexpr uint32_t kExtendedFrexp = 51;
+inline constexpr uint32_t kHeaderWords = 5;
+inline constexpr uint32_t kDecorationSpecId = 1;
+inline constexpr uint32_t kDecorationDescriptorSet = 34;
+inline constexpr uint32_t kExtendedModf = 35; // of GLSL.std.450: these two write through a pointer
+inline constexpr uint32_t kExtendedFrexp = 51;
 
 using Words = std::span<const uint32_t>;
 

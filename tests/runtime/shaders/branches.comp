@@ -1,7 +1,5 @@
-// Computes a word for each invocation by ways that depend on specialization constants: branches,
-// switches, early
-// returns, loops that end early, never repeat or never end by themselves, and values that come from
-// several ways.
+// Computes a word for each invocation by ways that depend on specialization constants: branches, switches,
+// early returns, loops that end early, never repeat or never end by themselves, and values of several ways.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 
