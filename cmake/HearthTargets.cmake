@@ -3,6 +3,7 @@ add_custom_target(hearth_product ALL COMMENT "hearth, the cookers, hearth-sample
 add_custom_target(hearth_demo COMMENT "The programs that ./dev demo runs")
 add_custom_target(hearth_tests COMMENT "All test programs, and the programs that they run")
 add_custom_target(hearth_unit_tests COMMENT "The tests that run under the address sanitizer, and the programs that they run")
+add_custom_target(hearth_untrusted_tests COMMENT "Those of them that read bytes from outside")
 add_custom_target(hearth_threads_tests COMMENT "The tests that run under the thread sanitizer")
 add_custom_target(hearth_benches COMMENT "Benchmarks and measuring programs")
 add_dependencies(hearth_tests hearth_product)

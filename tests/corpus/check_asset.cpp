@@ -20,6 +20,9 @@ namespace fs = std::filesystem;
 // Programs that inspect an existing pack have no limit of the asset's; this one detects hangs.
 constexpr Limits kLookLimits{120, uint64_t{4} << 30};
 
+// Baking what each vertex sees takes seconds for each hundred thousand triangles.
+constexpr uint64_t kMostBakedTriangles = 50'000;
+
 constexpr size_t kReportedLines = 3;
 constexpr size_t kMaxMessages = size_t{16} << 20;
 
@@ -72,9 +75,15 @@ ProcessEnd cook(const Workplace& place, const Asset& asset, const Programs& prog
 {
     const std::string library =
         fs::read_symlink("/proc/self/exe").parent_path().string() + "/" + kOpenLogLibrary;
-    // textures take most of the time of many; a draft goes through the same code
-    return run(place, {programs.hearth, "cook", asset.path, "-o", place.pack, "--texture-quality", "draft"},
-               asset.limits, place.box,
+    // coarse textures and bricks go through the same code as fine ones, and so does baking of small models
+    std::vector<std::string> command = {programs.hearth,     "cook",  asset.path,       "-o", place.pack,
+                                        "--texture-quality", "draft", "--brick-memory", "1M"};
+    if (!asset.counts.contains("width"))
+        command.insert(command.end(), {"--max-texture-size", "512"});
+    if (const auto triangles = asset.counts.find("triangles");
+        triangles != asset.counts.end() && triangles->second > kMostBakedTriangles)
+        command.insert(command.end(), {"--visibility", "off"});
+    return run(place, std::move(command), asset.limits, place.box,
                {"LD_PRELOAD=" + library, std::string(kOpenLogVariable) + "=" + place.open_log,
                 // otherwise a program under AddressSanitizer refuses to start after a preloaded library
                 "ASAN_OPTIONS=verify_asan_link_order=0"});

@@ -83,15 +83,15 @@ TEST_F(ImageTest, theFinalViewIsWhatRaysGive)
         const CookedSample& sample = cookedSample(spec);
         const GpuScene scene = device().upload(sample.pack());
         NamedView named = makeViews(sample.pack())[spec.kind == "room" ? 3 : 0];
-        named.view.width = 512;
-        named.view.height = 512;
+        named.view.width = 384;
+        named.view.height = 384;
         named.view.error_pixels = 1;
         const Image drawn = halved(scene.draw(named.frame(sample.pack())).image);
 
         reference::ReferenceOptions options;
         options.camera = named.view.camera;
-        options.width = 256;
-        options.height = 256;
+        options.width = 192;
+        options.height = 192;
         const auto expected = reference::renderReference(sample.pack(), options);
         ASSERT_TRUE(expected.ok()) << formatMessage(expected.error());
         const reference::FlipMap map = reference::flip(*expected, drawn);

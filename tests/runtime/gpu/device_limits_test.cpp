@@ -6,6 +6,10 @@
 #include <cstdlib>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace hearth::test
 {
@@ -16,18 +20,33 @@ namespace
 using gpu::FrameWay;
 using gpu::MaterialTest;
 
-/// Create a device with the limits of a profile.
+/// Give a variable of the environment a value, or none.
+void setVariable(const char* name, const std::optional<std::string>& value)
+{
+    if (value)
+        ::setenv(name, value->c_str(), 1);
+    else
+        ::unsetenv(name);
+}
+
+/// Create a device with the limits of a profile. The environment stays as it was: it may name a profile for the other tests
+/// of this process.
 std::unique_ptr<viewer::VulkanHost> createHost(const std::string& profile)
 {
     const std::pair<const char*, std::string> environment[] = {
         {"VK_ADD_LAYER_PATH", HEARTH_LIMITS_LAYER},
         {"VK_INSTANCE_LAYERS", "VK_LAYER_HEARTH_limits"},
         {"HEARTH_TEST_LIMITS", HEARTH_LIMITS_PROFILES "/" + profile + ".json"}};
+    std::vector<std::optional<std::string>> before;
     for (const auto& [name, value] : environment)
-        ::setenv(name, value.c_str(), 1);
+    {
+        const char* const old = std::getenv(name);
+        before.push_back(old != nullptr ? std::optional<std::string>(old) : std::nullopt);
+        setVariable(name, value);
+    }
     auto host = viewer::VulkanHost::create({.device_name = "", .validate = true});
-    for (const auto& [name, value] : environment)
-        ::unsetenv(name);
+    for (size_t i = 0; i < before.size(); ++i)
+        setVariable(environment[i].first, before[i]);
     HEARTH_ASSERT(host.ok());
     return std::move(*host);
 }
