@@ -268,6 +268,7 @@ Result<gpu::FrameInput> makeInput(const hearth_scene& scene, const gpu::FrameTar
                            .poses = scene.poses,
                            .shadow_spheres = scene.shadow_spheres,
                            .lights = scene.lights,
+                           .daylight = scene.daylight ? &*scene.daylight : nullptr,
                            .lamp_weights = scene.lamp_weights,
                            .emission = scene.emissions,
                            .timestamps = frame.timestamps};
@@ -287,6 +288,7 @@ Status beginFrame(hearth_scene& scene, const hearth_frame& frame)
     HEARTH_TRY(checkFrameBegun(scene));
     HEARTH_TRY(makeMoves(scene, frame));
     HEARTH_TRY(makePoses(scene, frame));
+    HEARTH_TRY(makeDaylight(scene, frame));
     HEARTH_TRY(makeLights(scene, frame));
     HEARTH_TRY(makeLampWeights(scene, frame));
     HEARTH_TRY(makeEmissions(scene, frame));

@@ -73,6 +73,7 @@ struct hearth_scene
     std::vector<hearth::gpu::ShadowSphere> shadow_spheres; ///< as moves
     std::vector<hearth::gpu::LightChange> lights;          ///< as moves
     std::vector<hearth::gpu::LampWeight> lamp_weights;     ///< as moves
+    std::optional<hearth::gpu::DaylightChange> daylight;   ///< as moves
     std::vector<hearth::gpu::EmissionScale> emissions;     ///< as moves
 };
 

@@ -740,6 +740,16 @@ typedef struct hearth_lamp_weight
     float weight[3]; /* red, green, blue: finite, 0 or more */
 } hearth_lamp_weight;
 
+/* Sun and clear sky (1.8), in place of the scene's sky and its first directional light. Light that was baked into
+ * receivers and local probes stays. */
+typedef struct hearth_daylight
+{
+    float elevation_deg; /* of the sun above the horizon, 0 to 90 */
+    float azimuth_deg;   /* of the sun, finite: 0 towards -z, 90 towards +x */
+    float turbidity;     /* haze, 2.5 (clear) to 8; or 0: sky and sun as the pack has them */
+    uint32_t reserved;   /* 0 */
+} hearth_daylight;
+
 enum
 {
     HEARTH_BLOOM_MIX = 0, /* the spread light replaces a share of the image, whose mean it keeps */
@@ -792,6 +802,8 @@ typedef struct hearth_frame
     const hearth_lamp_weight* lamp_weights; /* read while recording */
     uint32_t lamp_weight_count;
     uint32_t reserved; /* 0 */
+    /* from this frame on, until it is set anew; before `lights`. NULL: no change. An error where the sky is an image */
+    const hearth_daylight* daylight;
 } hearth_frame;
 
 #define HEARTH_FRAME_INIT                                                                                    \
@@ -800,7 +812,7 @@ typedef struct hearth_frame
             NULL, 0, 0, NULL, HEARTH_VIEW_FINAL, 1, HEARTH_SHADE_AUTOMATIC, 0, NULL, VK_NULL_HANDLE, NULL,   \
             0, HEARTH_AMBIENT_OCCLUSION_EXACT, HEARTH_SPECULAR_OCCLUSION_FIT, 0, NULL, NULL, 0, 0, 0, 0, 0,  \
             0.18f, 1, 0, {1, 1, 1}, 0, 0, HEARTH_BLOOM_MIX, HEARTH_LIGHTS_PRACTICAL, HEARTH_LIGHT_LISTS_GPU, \
-            NULL, 0, 0                                                                                       \
+            NULL, 0, 0, NULL                                                                                 \
     }
 
 /* ---- Tables of a pack (1.6), on any thread ----

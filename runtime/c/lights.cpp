@@ -43,6 +43,21 @@ Status makeLights(hearth_scene& scene, const hearth_frame& frame)
     return success();
 }
 
+Status makeDaylight(hearth_scene& scene, const hearth_frame& frame)
+{
+    scene.daylight.reset();
+    if (frame.daylight == nullptr)
+        return success();
+    const hearth_daylight& wanted = *frame.daylight;
+    if (wanted.reserved != 0)
+        return usage("reserved of daylight is not 0");
+    std::optional<shared::Daylight> daylight;
+    if (wanted.turbidity != 0)
+        daylight = {wanted.elevation_deg, wanted.azimuth_deg, wanted.turbidity};
+    HEARTH_ASSIGN_OR_RETURN(scene.daylight, gpu::changeDaylight(*scene.scene, daylight));
+    return success();
+}
+
 Status makeLampWeights(hearth_scene& scene, const hearth_frame& frame)
 {
     if (frame.lamp_weight_count > 0 && frame.lamp_weights == nullptr)

@@ -10,6 +10,9 @@ namespace hearth::c
 /// Fill scene.lights. errors: usage.
 Status makeLights(hearth_scene& scene, const hearth_frame& frame);
 
+/// Fill scene.daylight. errors: usage.
+Status makeDaylight(hearth_scene& scene, const hearth_frame& frame);
+
 /// Fill scene.lamp_weights. errors: usage.
 Status makeLampWeights(hearth_scene& scene, const hearth_frame& frame);
 

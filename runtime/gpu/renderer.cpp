@@ -416,7 +416,11 @@ void Renderer::recordCulled(VkCommandBuffer commands, const Scene& scene, FrameT
     trackShadows(scene, input.moves);
     passes.begin(FrameStep::update);
     WordCopies copies = recordFrameUpdate(device_, commands, scene, targets, copy_words_, view,
-                                          {input.moves, input.poses, input.lights, input.lamp_weights});
+                                          {.moves = input.moves,
+                                           .poses = input.poses,
+                                           .daylight = input.daylight,
+                                           .lights = input.lights,
+                                           .lamp_weights = input.lamp_weights});
     if (scene.receivers != nullptr)
         recordReceivers(commands, scene);
     recordLightLists(commands, scene, view, input.shading, passes);

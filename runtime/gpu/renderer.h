@@ -65,6 +65,8 @@ struct FrameInput
     std::span<const ShadowSphere> shadow_spheres{};
     /// Valid from this frame on; read while recording.
     std::span<const LightChange> lights{};
+    /// Sky and sun, before `lights`. Valid from this frame on; read while recording.
+    const DaylightChange* daylight = nullptr;
     /// Weights of lamps, which stay until they are set anew. Valid from this frame on; read while recording.
     std::span<const LampWeight> lamp_weights{};
     /// Emission scales of brick faces for a scene with bricks. All scales of this frame; read while

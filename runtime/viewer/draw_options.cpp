@@ -41,6 +41,10 @@ constexpr std::string_view kDrawHelp =
     "                          as --lights prepass, classic-prepass, encoded-prepass; hearth-render prints "
     "how far\n"
     "                          the images of the last two are off\n"
+    "      --daylight ELEVATION,AZIMUTH[,TURBIDITY]\n"
+    "                          sun and clear sky in place of the scene's: degrees of the sun above the "
+    "horizon, and\n"
+    "                          from -z towards +x; haze from 2.5 to 8 (default 3: clear)\n"
     "      --light NAME=SCALE  a light by its name, SCALE times as bright: a number, or R,G,B; its baked "
     "light too,\n"
     "                          and that of a mesh that emits; may be given several times\n"
@@ -306,6 +310,21 @@ Status parseGi(std::string_view text, FrameSettings& settings)
     return success();
 }
 
+Status parseDaylight(std::string_view text, std::optional<shared::Daylight>& daylight)
+{
+    const auto numbers = parseNumbers(text);
+    if (!numbers || numbers->size() < 2 || numbers->size() > 3)
+        return usageError("--daylight: " + quoted(text) +
+                          " is not ELEVATION,AZIMUTH or ELEVATION,AZIMUTH,TURBIDITY");
+    shared::Daylight parsed{.elevation_deg = numbers->at(0), .azimuth_deg = numbers->at(1)};
+    if (numbers->size() == 3)
+        parsed.turbidity = numbers->at(2);
+    if (const Status checked = shared::checkDaylight(parsed); !checked.ok())
+        return usageError("--daylight: " + checked.error().detail);
+    daylight = parsed;
+    return success();
+}
+
 Status parseErrorPixels(std::string_view text, FrameSettings& settings)
 {
     const auto number = parseNumber<float>(text);
@@ -396,6 +415,8 @@ void addDrawOptions(CommandLine& command_line, DrawOptions& options)
                                                  settings.specular_occlusion);
                           });
     command_line.addValue("--gi", [&](std::string_view text) { return parseGi(text, settings); });
+    command_line.addValue("--daylight",
+                          [&](std::string_view text) { return parseDaylight(text, options.daylight); });
     command_line.addValue("--light", [&](std::string_view text) { return parseLamp(text, options.lamps); });
     command_line.addValue("--lights",
                           [&](std::string_view text) {

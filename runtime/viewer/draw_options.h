@@ -3,6 +3,7 @@
 #pragma once
 
 #include "formats/pack/pack_view.h"
+#include "formats/scene/daylight.h"
 #include "runtime/pack/pose_player.h"
 #include "runtime/viewer/command_line.h"
 #include "runtime/viewer/frame_settings.h"
@@ -26,7 +27,8 @@ struct DrawOptions
     FrameSettings settings;               ///< checked
     ShadowSettings shadows;               ///< on by default
     std::vector<LampSetting> lamps;
-    uint64_t memory_budget = 0; ///< bytes; 0: all geometry is resident
+    std::optional<shared::Daylight> daylight; ///< checked; none: sky and sun of the pack
+    uint64_t memory_budget = 0;               ///< bytes; 0: all geometry is resident
     std::string device;
     bool validate = false;
     bool verbose = false;

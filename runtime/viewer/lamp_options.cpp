@@ -17,16 +17,10 @@ namespace
 /// Parse one number for all channels, or three.
 std::optional<Float3> parseWeight(std::string_view text)
 {
-    std::vector<float> numbers;
-    for (size_t at = 0; at <= text.size();)
-    {
-        const size_t end = std::min(text.find(',', at), text.size());
-        const auto number = parseNumber<float>(text.substr(at, end - at));
-        if (!number || *number < 0)
-            return std::nullopt;
-        numbers.push_back(*number);
-        at = end + 1;
-    }
+    const auto parsed = parseNumbers(text);
+    if (!parsed || std::ranges::any_of(*parsed, [](float number) { return number < 0; }))
+        return std::nullopt;
+    const std::vector<float>& numbers = *parsed;
     if (numbers.size() == 1)
         return Float3{numbers[0], numbers[0], numbers[0]};
     return numbers.size() == 3 ? std::optional(Float3{numbers[0], numbers[1], numbers[2]}) : std::nullopt;

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 namespace hearth::viewer
 {
@@ -23,6 +25,22 @@ std::optional<T> parseNumber(std::string_view text)
         if (!std::isfinite(value))
             return std::nullopt;
     return value;
+}
+
+/// Parse finite numbers between commas.
+inline std::optional<std::vector<float>> parseNumbers(std::string_view text)
+{
+    std::vector<float> numbers;
+    for (size_t at = 0; at <= text.size();)
+    {
+        const size_t end = std::min(text.find(',', at), text.size());
+        const auto number = parseNumber<float>(text.substr(at, end - at));
+        if (!number)
+            return std::nullopt;
+        numbers.push_back(*number);
+        at = end + 1;
+    }
+    return numbers;
 }
 
 } // namespace hearth::viewer

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr Limits kLookLimits{120, uint64_t{4} << 30};
 
 // Baking what each vertex sees takes seconds for each hundred thousand triangles.
-constexpr uint64_t kMostBakedTriangles = 50'000;
+constexpr uint64_t kMaxBakedTriangles = 50'000;
 
 constexpr size_t kReportedLines = 3;
 constexpr size_t kMaxMessages = size_t{16} << 20;
@@ -81,7 +81,7 @@ ProcessEnd cook(const Workplace& place, const Asset& asset, const Programs& prog
     if (!asset.counts.contains("width"))
         command.insert(command.end(), {"--max-texture-size", "512"});
     if (const auto triangles = asset.counts.find("triangles");
-        triangles != asset.counts.end() && triangles->second > kMostBakedTriangles)
+        triangles != asset.counts.end() && triangles->second > kMaxBakedTriangles)
         command.insert(command.end(), {"--visibility", "off"});
     return run(place, std::move(command), asset.limits, place.box,
                {"LD_PRELOAD=" + library, std::string(kOpenLogVariable) + "=" + place.open_log,

@@ -50,8 +50,8 @@ std::vector<std::string> readBlocks(const std::string& document, const std::stri
     return lines;
 }
 
-/// Return a command with less to compute: small images of the large sample, few texels of baked light. The commands' outcomes
-/// are the subject of other tests.
+/// Return a command with less to compute: small images of the large sample, few texels of baked light. What
+/// commands give is the subject of other tests.
 std::string makeCheap(std::string line)
 {
     for (const auto& [found, added] :

@@ -2,7 +2,7 @@
 #include "formats/pack/pack_check.h"
 #include "pipelines/verify/verify_pack.h"
 #include "runtime/pack/pack.h"
-#include "tests/formats/malformed_packs.h"
+#include "tests/formats/malformed/malformed_packs.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

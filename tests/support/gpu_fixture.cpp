@@ -180,6 +180,7 @@ Image GpuTest::draw(const gpu::Scene& scene, gpu::FrameTargets& targets, const s
                                 .poses = options.poses,
                                 .shadow_spheres = options.shadow_spheres,
                                 .lights = options.lights,
+                                .daylight = options.daylight,
                                 .emission = options.emission};
     const Status status = host().run(
         [&](VkCommandBuffer commands)

@@ -49,6 +49,7 @@ struct DrawOptions
     std::span<const gpu::InstancePose> poses{};
     std::span<const gpu::ShadowSphere> shadow_spheres{};
     std::span<const gpu::LightChange> lights{};
+    const gpu::DaylightChange* daylight = nullptr;
     std::span<const gpu::EmissionScale> emission{};
     bool gi = true;
     gpu::LightMethod light_method = gpu::LightMethod::practical;

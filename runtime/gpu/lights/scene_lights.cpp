@@ -73,15 +73,13 @@ LightBufferLayout LightBufferLayout::make(uint32_t capacity, const shared::Scene
 }
 
 SceneLights::SceneLights(const LightBufferLayout& layout, shared::SceneLighting lighting)
-    : layout_(layout), lighting_(std::move(lighting)), loaded_(lighting_.lights)
+    : layout_(layout), lighting_(std::move(lighting)), loaded_(lighting_.lights), loaded_sky_(lighting_.sky)
 {
     HEARTH_ASSERT(lighting_.lights.size() <= layout_.capacity);
     for (const shared::Light& light : loaded_)
         slots_.push_back(
             {.intensity = light.intensity, .steady_luminance = shared::luminance(light.intensity)});
-    head_.sky_zenith = lighting_.sky.zenith;
-    head_.sky_horizon = lighting_.sky.horizon;
-    head_.sky_ground = lighting_.sky.ground;
+    setSky(lighting_.sky);
     head_.sky_image_row = lighting_.sky.image == nullptr
                               ? shared::kNoSkyImage
                               : static_cast<uint32_t>(layout_.sky_image / kRowBytes);
@@ -168,6 +166,15 @@ void SceneLights::set(MirroredTable& table, uint32_t slot, const shared::Light& 
     slots_[slot].intensity = light.intensity;
     slots_[slot].steady_luminance = steady_luminance;
     writeLight(table, slot);
+}
+
+void SceneLights::setSky(const shared::Sky& sky)
+{
+    HEARTH_ASSERT(sky.image == lighting_.sky.image);
+    lighting_.sky = sky;
+    head_.sky_zenith = sky.zenith;
+    head_.sky_horizon = sky.horizon;
+    head_.sky_ground = sky.ground;
 }
 
 void SceneLights::setWeight(MirroredTable& table, uint32_t slot, Float3 weight)

@@ -73,6 +73,12 @@ public:
     /// steady_luminance  of its intensity without flicker
     void set(MirroredTable& table, uint32_t slot, const shared::Light& light, float steady_luminance);
 
+    /// Replace the colours of the gradient, in scenes whose sky is no image. The next frame has them.
+    void setSky(const shared::Sky& sky);
+    bool hasSkyImage() const { return lighting_.sky.image != nullptr; }
+    /// The sky as loaded.
+    const shared::Sky& loadedSky() const { return loaded_sky_; }
+
     /// Set the weight of a slot, by which its light is multiplied; 1 until then.
     void setWeight(MirroredTable& table, uint32_t slot, Float3 weight);
 
@@ -123,6 +129,7 @@ private:
     LightBufferLayout layout_;
     shared::SceneLighting lighting_;
     std::vector<shared::Light> loaded_;
+    shared::Sky loaded_sky_;
     std::vector<Slot> slots_; ///< [lights().size()]
     shared::Lighting head_{};
     shared::LightLists lists_;

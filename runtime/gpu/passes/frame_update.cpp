@@ -62,6 +62,8 @@ WordCopies recordFrameUpdate(const Device& device, VkCommandBuffer commands, con
 {
     takeMoves(scene, changes.moves);
     takePoses(scene, changes.poses);
+    if (changes.daylight != nullptr)
+        takeDaylight(scene, *changes.daylight);
     takeLights(scene, changes.lights, changes.lamp_weights);
     if (scene.shadows != nullptr && changes.draws)
         scene.shadows->chooseLights(view, *scene.lights, scene.tables->lighting);

@@ -19,6 +19,7 @@ struct FrameChanges
 {
     std::span<const InstanceMove> moves{};
     std::span<const InstancePose> poses{};
+    const DaylightChange* daylight = nullptr; ///< before `lights`
     std::span<const LightChange> lights{};
     std::span<const LampWeight> lamp_weights{};
     bool draws = true; ///< false: nothing is drawn, and shadow maps stay with the lights that have them

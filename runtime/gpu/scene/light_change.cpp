@@ -5,6 +5,7 @@
 #include "runtime/gpu/scene/scene_shadows.h"
 #include "runtime/gpu/scene/scene_surroundings.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -70,6 +71,33 @@ Result<LightChange> changeLight(const Scene& scene, uint32_t light, const format
     return change;
 }
 
+Result<DaylightChange> changeDaylight(const Scene& scene, const std::optional<shared::Daylight>& daylight)
+{
+    const std::span<const shared::Light> loaded = scene.lights->loaded();
+    const auto sun = std::ranges::find(loaded, shared::kLightDirectional, &shared::Light::type);
+    DaylightChange change{.sky = scene.lights->loadedSky()};
+    if (sun != loaded.end())
+        change.sun = LightChange{.light = static_cast<uint32_t>(sun - loaded.begin()), .record = *sun};
+    if (daylight)
+    {
+        HEARTH_TRY(shared::checkDaylight(*daylight));
+        if (scene.lights->hasSkyImage())
+            return Error{
+                Issue::usage, "", "daylight",
+                "the sky of the scene is an image: cook it without --sky, or draw it without daylight"};
+        const shared::DaylightColors colors = shared::makeDaylight(*daylight);
+        change.sky = {.zenith = colors.zenith, .horizon = colors.horizon, .ground = colors.ground};
+        if (change.sun)
+        {
+            change.sun->record.direction = colors.sun_direction;
+            change.sun->record.intensity = colors.sun_illuminance;
+        }
+    }
+    if (change.sun)
+        change.sun->steady_luminance = shared::luminance(change.sun->record.intensity);
+    return change;
+}
+
 Result<LampWeight> weighLight(const Scene& scene, uint32_t light, Float3 weight)
 {
     const auto fail = [&](const std::string& detail) {
@@ -94,6 +122,14 @@ Result<LampWeight> weighEmission(const Scene& scene, uint32_t instance, Float3 w
     if (!isWeight(weight))
         return fail("its weight is negative or not finite");
     return LampWeight{formats::ReceiverLampKind::mesh_light, instance, weight};
+}
+
+void takeDaylight(const Scene& scene, const DaylightChange& daylight)
+{
+    scene.lights->setSky(daylight.sky);
+    if (scene.surroundings != nullptr)
+        scene.surroundings->changeSky(daylight.sky);
+    takeLights(scene, daylight.sun ? std::span(&*daylight.sun, 1) : std::span<const LightChange>{}, {});
 }
 
 void takeLights(const Scene& scene, std::span<const LightChange> lights, std::span<const LampWeight> weights)

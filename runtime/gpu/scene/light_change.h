@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "formats/scene/daylight.h"
 #include "runtime/gpu/scene/scene.h"
 
 #include <optional>
@@ -27,6 +28,21 @@ struct LightChange
 Result<LightChange> changeLight(const Scene& scene, uint32_t light, const formats::LightRecord& record,
                                 std::optional<float> steady_intensity = std::nullopt);
 
+/// Sky and sun of a daylight; valid until the next one.
+struct DaylightChange
+{
+    shared::Sky sky{};
+    std::optional<LightChange> sun{}; ///< none: the scene has no sun
+};
+
+/// Compute the sky and the sun of a scene under a daylight. Its sun is the first directional light that the
+/// scene was loaded with: that of scenes without lights, or one of the pack, whose colour and direction it
+/// replaces. Bricks and what surroundings give back follow; light that was baked into receivers and local
+/// probes stays.
+/// daylight  none: the sky and the sun as loaded
+/// errors: usage: values beyond their ranges, or the sky of the scene is an image.
+Result<DaylightChange> changeDaylight(const Scene& scene, const std::optional<shared::Daylight>& daylight);
+
 /// Weight of a lamp, by which all of its light is multiplied: on surfaces, in bricks, and in the atlas of
 /// receivers, bounced light included.
 struct LampWeight
@@ -47,6 +63,9 @@ Result<LampWeight> weighLight(const Scene& scene, uint32_t light, Float3 weight)
 /// weight  as for a light
 /// errors: usage.
 Result<LampWeight> weighEmission(const Scene& scene, uint32_t instance, Float3 weight);
+
+/// Write a daylight to the sky, to the sun, and to all that depends on them.
+void takeDaylight(const Scene& scene, const DaylightChange& daylight);
 
 /// Write changes and weights to the table of lights, to shadows, to receivers and to what the lights'
 /// surroundings give back.

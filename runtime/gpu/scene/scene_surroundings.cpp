@@ -67,6 +67,12 @@ void SceneSurroundings::change(uint32_t slot, const shared::Light& record)
     lighting_.lights[slot] = record;
 }
 
+void SceneSurroundings::changeSky(const shared::Sky& sky)
+{
+    lighting_.sky = sky;
+    changed_ = true;
+}
+
 void SceneSurroundings::update(MirroredTable& lighting, VkDeviceSize offset)
 {
     if (!changed_)

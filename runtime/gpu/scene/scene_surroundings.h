@@ -34,7 +34,10 @@ public:
     /// Take the new state of a light; the next update() has it.
     void change(uint32_t slot, const shared::Light& record);
 
-    /// Write the rows that depend on the lights, if a directional light has changed.
+    /// Take the new colours of the sky; the next update() has them.
+    void changeSky(const shared::Sky& sky);
+
+    /// Write the rows that depend on the lights, if the sky or a directional light has changed.
     /// offset  of the rows in the table
     void update(MirroredTable& lighting, VkDeviceSize offset);
 

@@ -131,6 +131,9 @@ public:
     /// Set weights of lamps, which the next frame takes. The span must live until then.
     void setLampWeights(std::span<const gpu::LampWeight> weights) { lamp_weights_ = weights; }
 
+    /// Set the sky and the sun, which the next frame takes.
+    void setDaylight(const gpu::DaylightChange& daylight) { daylight_ = daylight; }
+
     /// Set the view of later frames.
     void setView(uint32_t view) { settings_.view = view; }
 
@@ -169,6 +172,8 @@ public:
         frame.poses = poses_;
         frame.lights = lights_.changes();
         frame.lamp_weights = std::exchange(lamp_weights_, {}); // weights stay
+        const std::optional<gpu::DaylightChange> daylight = std::exchange(daylight_, std::nullopt);
+        frame.daylight = daylight ? &*daylight : nullptr;
         beginFrame();
         if (options_.pyramid == PyramidStart::none)
             targets_.setPyramidView({});
@@ -428,6 +433,7 @@ private:
     std::span<const gpu::InstancePose> poses_{};      ///< of the next frame
     FrameLights lights_;                              ///< changes since the last frame
     std::span<const gpu::LampWeight> lamp_weights_{}; ///< of the next frame
+    std::optional<gpu::DaylightChange> daylight_{};   ///< the same
     std::vector<std::vector<double>> times_;
     std::vector<FrameCounts> frames_; ///< frames that were written
     std::vector<StreamCounts> streaming_;
@@ -643,6 +649,12 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
     HEARTH_ASSIGN_OR_RETURN(const std::vector<gpu::LampWeight> lamp_weights,
                             findLampWeights(options.lamps, pack, *scene));
     run.setLampWeights(lamp_weights);
+    if (options.daylight)
+    {
+        HEARTH_ASSIGN_OR_RETURN(const gpu::DaylightChange daylight,
+                                gpu::changeDaylight(*scene, options.daylight));
+        run.setDaylight(daylight);
+    }
     HEARTH_TRY(sheet ? drawSheet(options, images, *sheet, run) : drawImages(options, images, run));
     return run.writeStats(sheet);
 }

@@ -165,6 +165,23 @@ void buildLamps(std::vector<LampControl>& lamps)
     }
 }
 
+/// Show the daylight, in scenes whose sky is no image.
+void buildDaylight(std::optional<shared::Daylight>& daylight, const gpu::Scene& scene)
+{
+    if (scene.lights->hasSkyImage() || !ImGui::CollapsingHeader("Daylight"))
+        return;
+    bool is_on = daylight.has_value();
+    if (ImGui::Checkbox("Clear sky in place of the scene's", &is_on))
+        daylight = is_on ? std::optional(shared::Daylight{}) : std::nullopt;
+    if (!daylight)
+        return;
+    ImGui::SliderFloat("Elevation", &daylight->elevation_deg, 0, 90, "%.1f deg",
+                       ImGuiSliderFlags_AlwaysClamp);
+    ImGui::SliderFloat("Azimuth", &daylight->azimuth_deg, -180, 180, "%.1f deg",
+                       ImGuiSliderFlags_AlwaysClamp);
+    ImGui::SliderFloat("Haze", &daylight->turbidity, 2.5f, 8, "%.1f", ImGuiSliderFlags_AlwaysClamp);
+}
+
 /// Show the settings of what follows the lighting; zero everywhere is none.
 void buildPost(gpu::PostSettings& post)
 {
@@ -218,6 +235,7 @@ void Panel::build(ViewSettings& settings, const PanelData& facts)
         chooseCamera(settings, facts);
         chooseAsset(settings, facts.assets);
         buildImage(settings.frame, facts);
+        buildDaylight(settings.daylight, facts.scene.scene());
         buildLamps(settings.lamps);
         buildPost(settings.frame.post);
         buildAnimation(settings.playback, facts);

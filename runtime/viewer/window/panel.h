@@ -22,7 +22,8 @@ struct ViewSettings
     bool panel = true;
     std::optional<size_t> camera{};   ///< request: go to this one of PanelData::cameras
     std::vector<LampControl> lamps{}; ///< of the pack
-    std::optional<size_t> asset{};    ///< this one of PanelData::assets; none: the whole scene
+    std::optional<shared::Daylight> daylight{};
+    std::optional<size_t> asset{}; ///< this one of PanelData::assets; none: the whole scene
 };
 
 struct NamedCamera

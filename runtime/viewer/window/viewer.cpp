@@ -118,6 +118,7 @@ Result<std::unique_ptr<Viewer>> Viewer::create(const ViewOptions& options, const
     HEARTH_ASSIGN_OR_RETURN(const shared::Camera start, chooseCamera(options, pack, player));
     std::unique_ptr<Viewer> viewer(new Viewer(options, pack, std::move(playback), player, start));
     HEARTH_ASSIGN_OR_RETURN(viewer->settings_.lamps, listLampControls(pack, options.lamps));
+    viewer->settings_.daylight = options.daylight;
     HEARTH_TRY(viewer->open(options));
     return viewer;
 }
@@ -263,6 +264,7 @@ Status Viewer::show(std::unique_ptr<LoadedScene> scene)
     HEARTH_TRY(prepareLightMethod());
     lights_ = FrameLights();
     lamp_weights_ = SceneLampWeights();
+    scene_daylight_.reset();
     if (assets_.stage)
         assets_.stage->reset();
     return success();
@@ -324,6 +326,12 @@ Status Viewer::poseScene()
     lights_.clear();
     HEARTH_TRY(lights_.add(light_player_, scene_->scene()));
     HEARTH_TRY(lamp_weights_.update(settings_.lamps, scene_->scene()));
+    daylight_change_.reset();
+    if (settings_.daylight != scene_daylight_)
+    {
+        HEARTH_ASSIGN_OR_RETURN(daylight_change_, gpu::changeDaylight(scene_->scene(), settings_.daylight));
+        scene_daylight_ = settings_.daylight;
+    }
     if (!assets_.stage)
         return success();
     const size_t part = AssetViews::partIndex(asset_);
@@ -405,6 +413,7 @@ void Viewer::recordFrame(VkCommandBuffer commands, uint32_t image, bool panel, c
     frame.poses = poses_;
     frame.lights = lights_.changes();
     frame.lamp_weights = lamp_weights_.changes();
+    frame.daylight = daylight_change_ ? &*daylight_change_ : nullptr;
     frame.timestamps = meter_->timestamps(frames_->slot());
     renderer().record(commands, scene, *targets_, frame);
     meter_->record(commands, *scene_, frames_->slot(), settings_.count_culling);

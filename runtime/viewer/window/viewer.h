@@ -75,6 +75,8 @@ private:
     FramePose pose_;
     FrameLights lights_; ///< changes of the next frame
     SceneLampWeights lamp_weights_;
+    std::optional<shared::Daylight> scene_daylight_{};   ///< that the scene has
+    std::optional<gpu::DaylightChange> daylight_change_; ///< of the next frame
     /// Cameras to go to; the first is the start camera, the second shows the whole scene.
     std::vector<NamedCamera> cameras_;
     AssetViews assets_;

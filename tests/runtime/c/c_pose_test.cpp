@@ -232,6 +232,25 @@ TEST_F(CPoseTest, gamesAddLightsOfTheirOwn)
     EXPECT_EQ(color_, dark);
 }
 
+TEST_F(CPoseTest, daylightReplacesSkyAndSun)
+{
+    TestScene test;
+    test.addInstance(test.addMesh(withMaterial(shapes::rock(8, 0.3f), kInvalidIndex)), Affine3{});
+    const formats::PackView view = test.build();
+    const AlignedBytes bytes = test.model().bytes();
+    open(view, bytes);
+    hearth_frame frame = makeFrame();
+    (void)drawInC(frame);
+    const std::vector<uint32_t> before = color_;
+    const hearth_daylight evening{10, 200, 4, 0}, of_the_pack{};
+    frame.daylight = &evening;
+    (void)drawInC(frame);
+    EXPECT_NE(color_, before);
+    frame.daylight = &of_the_pack;
+    (void)drawInC(frame);
+    EXPECT_EQ(color_, before);
+}
+
 TEST_F(CPoseTest, changesOfLightsThatAreNotDrawnHaveNoEffect)
 {
     TestScene test;

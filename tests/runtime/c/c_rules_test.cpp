@@ -310,6 +310,12 @@ TEST_F(CFrameRulesTest, framesThatBreakRulesAreRefused)
              {{HEARTH_LAMP_EMISSION, 0, {1, 1, 1}}, "no receivers"}})
         EXPECT_THAT(refused([&](F& f) { f.lamp_weights = &weight, f.lamp_weight_count = 1; }),
                     HasSubstr(mention));
+    for (const auto& [daylight, mention] :
+         std::initializer_list<std::pair<hearth_daylight, const char*>>{{{-1, 0, 3, 0}, "elevation"},
+                                                                        {{45, NAN, 3, 0}, "azimuth"},
+                                                                        {{45, 0, 1, 0}, "turbidity"},
+                                                                        {{45, 0, 3, 1}, "reserved"}})
+        EXPECT_THAT(refused([&](F& f) { f.daylight = &daylight; }), HasSubstr(mention));
     EXPECT_THAT(refused([](F& f) { f.reserved = 1; }), HasSubstr("reserved"));
     EXPECT_THAT(refused([](F& f) { f.emission_count = 1; }), HasSubstr("emissions is NULL"));
     EXPECT_THAT(refused([&](F& f) { f.emissions = &negative, f.emission_count = 1; }),

@@ -29,8 +29,8 @@ void setVariable(const char* name, const std::optional<std::string>& value)
         ::unsetenv(name);
 }
 
-/// Create a device with the limits of a profile. The environment stays as it was: it may name a profile for the other tests
-/// of this process.
+/// Create a device with the limits of a profile. The environment stays as it was: it may name a profile for
+/// the other tests of this process.
 std::unique_ptr<viewer::VulkanHost> createHost(const std::string& profile)
 {
     const std::pair<const char*, std::string> environment[] = {

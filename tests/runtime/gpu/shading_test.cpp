@@ -21,6 +21,15 @@ int srgbByte(float linear)
     return static_cast<int>(encoded * 255 + 0.5f);
 }
 
+/// Return the byte that a radiance is shown as.
+int shown(double radiance)
+{
+    // J. Hejl, R. Burgess-Dawson, 2010; the result is for a display of gamma 2.2
+    const double x = std::max(0.0, radiance - 0.004);
+    const double display = x * (6.2 * x + 0.5) / (x * (6.2 * x + 1.7) + 0.06);
+    return srgbByte(static_cast<float>(std::pow(display, 2.2)));
+}
+
 uint32_t gray(uint32_t value)
 {
     return 0xFF000000u | value << 16 | value << 8 | value;
@@ -258,6 +267,72 @@ TEST_F(ShadingTest, occlusionDarkensTheSkyAndEmissionAdds)
 }
 
 /// Beside lights emission is in nits: the camera that dims the lights dims it, too.
+TEST_F(ShadingTest, daylightIsTheSkyAndTheSun)
+{
+    // a wall that faces the sun's quarter, with the sky around it
+    TestScene test;
+    test.addInstance(test.addMesh(withMaterial(makeQuad(1, 1), test.addMaterial(plainMaterial()))),
+                     Affine3{});
+    const PackView pack = test.build();
+    const auto scene = upload(pack);
+    constexpr Float3 kWall{0, 0, 0}, kUp{0, 1000, 2}, kDown{0, -1000, 2};
+    const auto draw_at = [&](const std::optional<shared::Daylight>& daylight, Float3 target)
+    {
+        const gpu::DaylightChange change = gpu::changeDaylight(*scene, daylight).value();
+        shared::Camera camera = squareCamera();
+        camera.target = target;
+        camera.up = target == kWall ? Float3{0, 1, 0} : Float3{0, 0, 1};
+        return draw(*scene, camera, {.width = 64, .height = 64, .daylight = &change});
+    };
+    const Image before = draw_at(std::nullopt, kWall);
+    const Image evening = draw_at(shared::Daylight{.elevation_deg = 8}, kWall);
+    EXPECT_NE(evening.color, before.color);
+    EXPECT_EQ(draw(*scene, squareCamera(), {.width = 64, .height = 64}).color, evening.color)
+        << "it stays until it is set anew";
+    for (const float elevation : {5.0f, 30.0f, 80.0f})
+    {
+        const shared::Daylight front{.elevation_deg = elevation, .azimuth_deg = 180};
+        shared::Daylight behind = front;
+        behind.azimuth_deg = 0;
+        const shared::DaylightColors colors = shared::makeDaylight(front);
+        for (int c = 0; c < 3; ++c)
+        {
+            EXPECT_NEAR(channel(draw_at(front, kUp).at(32, 32), c), shown(double{(&colors.zenith.x)[c]}), 1)
+                << c;
+            EXPECT_NEAR(channel(draw_at(front, kDown).at(32, 32), c), shown(double{(&colors.ground.x)[c]}), 1)
+                << c;
+        }
+        EXPECT_GT(channel(draw_at(front, kWall).at(32, 32), 0), channel(draw_at(behind, kWall).at(32, 32), 0))
+            << elevation;
+    }
+    EXPECT_EQ(draw_at(std::nullopt, kWall).color, before.color) << "sky and sun as loaded";
+}
+
+/// A pack's sun becomes that of the daylight, whatever its own exposure is; lamps stay.
+TEST_F(ShadingTest, daylightReplacesThePacksSun)
+{
+    const auto draw_scene = [&](float lux, bool lamp)
+    {
+        TestScene test;
+        test.addInstance(test.addMesh(withMaterial(makeQuad(2, 2), test.addMaterial(plainMaterial()))),
+                         Affine3{});
+        if (lamp)
+            test.addLight(light(LightType::point, 0));
+        if (lux > 0)
+            test.addLight(light(LightType::directional, lux));
+        const PackView pack = test.build();
+        const auto scene = upload(pack);
+        const gpu::DaylightChange change =
+            gpu::changeDaylight(*scene, shared::Daylight{.elevation_deg = 20, .azimuth_deg = 150}).value();
+        EXPECT_EQ(change.sun.has_value(), lux > 0 || !lamp);
+        return draw(*scene, squareCamera(), {.width = 64, .height = 64, .daylight = &change}).color;
+    };
+    const std::vector<uint32_t> expected = draw_scene(0, false);
+    EXPECT_EQ(draw_scene(1, false), expected);
+    EXPECT_EQ(draw_scene(100'000, true), expected);
+    EXPECT_NE(draw_scene(0, true), expected) << "without a sun there is the sky alone";
+}
+
 TEST_F(ShadingTest, emissionFollowsTheExposure)
 {
     // a black metal reflects nothing at normal incidence
@@ -271,13 +346,6 @@ TEST_F(ShadingTest, emissionFollowsTheExposure)
             test.addLight(light(LightType::directional, *lux));
         material.emissive = {nits, nits, nits};
         return channel(drawMaterial(test, material).at(32, 32), 0);
-    };
-    const auto shown = [](double radiance)
-    {
-        // J. Hejl, R. Burgess-Dawson, 2010; the result is for a display of gamma 2.2
-        const double x = std::max(0.0, radiance - 0.004);
-        const double display = x * (6.2 * x + 0.5) / (x * (6.2 * x + 1.7) + 0.06);
-        return srgbByte(static_cast<float>(std::pow(display, 2.2)));
     };
     const double key = double{shared::kKeyIlluminance};
     // white paper under 100,000 lux reflects 31,831 nits, which the exposure makes the key over pi

@@ -155,8 +155,8 @@ protected:
         that_read_lists, ///< in place of volumes of lights, each drawn
     };
 
-    /// Compare the lists of both processors in a frame, and the images of methods. The last frame is the default
-    /// method's.
+    /// Compare the lists of both processors in a frame, and the images of methods. The last frame is the
+    /// default method's.
     void expectOneImage(const shared::Camera& camera, const DrawOptions& options = {},
                         Methods methods = Methods::all)
     {

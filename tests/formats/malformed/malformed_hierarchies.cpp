@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/codecs/cluster_bounds.h"
 #include "formats/container/container_reader.h"
-#include "tests/formats/malformed_packs.h"
+#include "tests/formats/malformed/malformed_packs.h"
 
 #include <cstring>
 #include <limits>

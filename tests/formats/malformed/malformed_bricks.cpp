@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "tests/formats/malformed_packs.h"
+#include "tests/formats/malformed/malformed_packs.h"
 
 #include <limits>
 
