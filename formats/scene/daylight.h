@@ -33,7 +33,7 @@ struct DaylightColors
 Status checkDaylight(const Daylight& daylight);
 
 /// Return the sun and the gradient of a checked daylight. The gradient is the closest one to the model,
-/// averaged around the vertical axis, and gives level ground the same irradiance. It takes about 0.2 ms.
+/// averaged around the vertical axis, and gives level ground the same irradiance. It takes about 0.4 ms.
 /// source  Preetham, Shirley, Smits, "A Practical Analytic Model for Daylight", SIGGRAPH 1999: section 3 and
 ///         appendix 1 the sun, appendix 2 the sky
 DaylightColors makeDaylight(const Daylight& daylight);

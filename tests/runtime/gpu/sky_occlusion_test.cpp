@@ -15,6 +15,7 @@
 #include "tests/support/shapes.h"
 
 #include <cmath>
+#include <cstring>
 
 namespace hearth::test
 {
@@ -495,6 +496,29 @@ TEST_F(SurroundingsTest, followsTheSun)
     load();
     EXPECT_NE(before.color, after.color);
     EXPECT_EQ(after.color, show(kViewFinal).color);
+}
+
+/// Occluders give back the light of the sky and the sun of the frame.
+TEST_F(SurroundingsTest, followsTheDaylight)
+{
+    const Daylight evening{.elevation_deg = 12, .azimuth_deg = 70};
+    const gpu::DaylightChange change = gpu::changeDaylight(*scene_, evening).value();
+    draw(*scene_, camera_, {.width = kWidth, .height = kHeight, .daylight = &change});
+    const DaylightColors colors = makeDaylight(evening);
+    Light sun = scene_->lights->loaded()[0];
+    sun.direction = colors.sun_direction;
+    sun.intensity = colors.sun_illuminance;
+    const LightHarmonics harmonics =
+        projectDistantLight({colors.zenith, colors.horizon, colors.ground}, {&sun, 1});
+    const gpu::Buffer& table = scene_->tables->lighting.copy(scene_->tables->frame);
+    const std::byte* row = table.mapped + scene_->lights->layout().surroundings;
+    ASSERT_FALSE(pack_->radianceTransfers().empty());
+    for (const formats::RadianceTransferRecord& transfer : pack_->radianceTransfers())
+    {
+        const OccluderLight expected = transferLight(transfer, harmonics);
+        EXPECT_EQ(std::memcmp(row, &expected, sizeof(expected)), 0);
+        row += sizeof(expected);
+    }
 }
 
 /// Rotating all joints of a limb alike equals rotating the limb.
