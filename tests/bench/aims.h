@@ -144,7 +144,7 @@ inline constexpr std::array kAims = {
     Aim{"receivers", "jump between neighbouring texels", Bound::at_most, 0.01},
     Aim{"receivers", "records of 16 bytes a texel", Bound::at_most, 2.2},
     Aim{"receiver-bake", "s of processor for a million texels, 8 lights, one bounce", Bound::at_most, 120},
-    Aim{"receiver-bake", "s of processor for a million texels, 8 lights, all bounces", Bound::at_most, 150},
+    Aim{"receiver-bake", "s of processor for a million texels, 8 lights, all bounces", Bound::at_most, 120},
     Aim{"kills", "packs, caches or folders that a kill broke", Bound::at_most, 0},
     Aim{"kills", "kills that caught a cook at work", Bound::at_least, 50},
     Aim{"marchLanesFromFaces", "items_per_second", Bound::at_least, 5e6},

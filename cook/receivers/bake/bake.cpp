@@ -120,6 +120,7 @@ std::optional<BakedReceivers> bakeReceivers(const BakeScene& scene, const BakeSe
         return std::nullopt;
     const Elements elements(scene, domains, settings.patch_size);
     const GatherTable table(scene, rays, elements);
+    const BounceTiles tiles(scene, domains, elements, table);
     baked.gather_rays = elements.list().size() * kElementRays;
 
     std::vector<AtlasTexel> texels;
@@ -138,7 +139,7 @@ std::optional<BakedReceivers> bakeReceivers(const BakeScene& scene, const BakeSe
     {
         const size_t count = std::min(kLightGroup, baked.light_count - first);
         const GroupLight light =
-            computeLight(scene, rays, elements, domains, table, first, count, settings.bounces);
+            computeLight(scene, rays, elements, domains, table, tiles, first, count, settings.bounces);
         baked.shadow_rays += light.shadow_rays;
         for (size_t i = 0; i < texels.size(); ++i)
             for (size_t k = 0; k < count; ++k)

@@ -55,7 +55,7 @@ struct BakedReceivers
 };
 
 /// Bake all lights. The result does not depend on the number of threads. Memory: about 350 bytes for an
-/// element (texel or patch), 700 for eight of the lights, and the result.
+/// element (texel or patch), 500 for eight of the lights, and the result.
 /// returns  nullopt if the rectangles do not fit into an atlas
 std::optional<BakedReceivers> bakeReceivers(const BakeScene& scene, const BakeSettings& settings);
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/receivers/bake/gather_table.h"
+#include "cook/receivers/bake/bounce_tiles.h"
 
 namespace hearth::receivers
 {
@@ -20,15 +20,16 @@ struct GroupLight
 };
 
 /// Compute irradiance E = D + G(albedo E), with D of the lights and G the mean of a gather table: the limit
-/// of as many bounces as asked for, or as many as change an element by more than kSettled of its value. The
-/// last one spreads what few rays meet (gatherTexels). Does not depend on the number of threads.
+/// of as many bounces as asked for, or as many as change a tile by more than kSettled of its value. All but the
+/// last are between tiles (BounceTiles). The last one is between elements, and spreads what few rays meet
+/// (gatherTexels). Does not depend on the number of threads.
 /// domains       of the elements
 /// first, count  lights of the scene, 1 to kLightGroup
 GroupLight computeLight(const BakeScene& scene, const BakeRays& rays, const Elements& elements,
-                        std::span<const TexelDomain> domains, const GatherTable& table, size_t first,
-                        size_t count, uint32_t bounces);
+                        std::span<const TexelDomain> domains, const GatherTable& table,
+                        const BounceTiles& tiles, size_t first, size_t count, uint32_t bounces);
 
-/// Share of an element's light below which a bounce ends the iteration.
+/// Share of a tile's light below which a bounce ends the iteration.
 inline constexpr float kSettled = 0.0003f;
 
 } // namespace hearth::receivers

@@ -2,6 +2,7 @@
 #include "cook/receivers/bake/bright_rays.h"
 
 #include "cook/receivers/bake/bounces.h"
+#include "cook/receivers/bake/surface_texels.h"
 #include "formats/base/index.h"
 
 #include <tbb/blocked_range.h>
@@ -20,46 +21,60 @@ namespace
 /// Rounds in which the mean of rays that are no brighter than kBrightRay times it is found.
 constexpr int kMeanRounds = 6;
 
-/// Least cosine between the normals of texels that share the light of bright rays.
-constexpr float kSameSide = 0.8f;
+/// Three of each light of a group. Loops over all of them, used or not, are vector instructions.
+using Values = std::array<float, 3 * kLightGroup>;
 
-/// Values of the rays of a texel, in one channel of a light.
-using RayValues = std::array<float, kElementRays>;
+/// Values that the rays of a texel bring.
+using RayValues = std::array<Values, kElementRays>;
 
-/// Mean of values: that of bright rays which is spread, and the rest.
+/// Means of values: those of bright rays which are spread, and the rest.
 struct SplitMean
 {
-    float regular, bright;
+    Values regular, bright;
 };
 
 SplitMean splitMean(const RayValues& values, uint32_t count)
 {
-    float all = 0;
-    for (uint32_t i = 0; i < count; ++i)
-        all += values[i];
     const float share = 1 / static_cast<float>(count);
-    all *= share;
-    float mean = all;
-    uint32_t bright_rays = 0;
+    Values all{}, largest{};
+    for (uint32_t i = 0; i < count; ++i)
+        for (size_t k = 0; k < all.size(); ++k)
+        {
+            all[k] += values[i][k];
+            largest[k] = std::max(largest[k], values[i][k]);
+        }
+    bool has_bright = false;
+    for (size_t k = 0; k < all.size(); ++k)
+    {
+        all[k] *= share;
+        has_bright |= largest[k] > kBrightRay * all[k];
+    }
+    if (!has_bright)
+        return {all, {}};
+    Values mean = all, bright_rays;
     for (int round = 0; round < kMeanRounds; ++round)
     {
-        const float limit = kBrightRay * mean;
-        float sum = 0;
-        bright_rays = 0;
+        Values sum{};
+        bright_rays.fill(0);
         for (uint32_t i = 0; i < count; ++i)
-        {
-            sum += std::min(values[i], limit);
-            bright_rays += values[i] > limit ? 1u : 0u;
-        }
-        mean = sum * share;
+            for (size_t k = 0; k < sum.size(); ++k)
+            {
+                const float limit = kBrightRay * mean[k];
+                sum[k] += std::min(values[i][k], limit);
+                bright_rays[k] += values[i][k] > limit ? 1.0f : 0.0f;
+            }
+        for (size_t k = 0; k < sum.size(); ++k)
+            mean[k] = sum[k] * share;
     }
-    if (bright_rays >= kManyBrightRays)
-        return {all, 0};
-    const float part = std::min(static_cast<float>(kManyBrightRays - bright_rays) /
-                                    static_cast<float>(kManyBrightRays - kFewBrightRays),
-                                1.0f);
-    const float bright = std::max(all - mean, 0.0f) * part;
-    return {all - bright, bright};
+    SplitMean split;
+    for (size_t k = 0; k < all.size(); ++k)
+    {
+        const float part =
+            std::clamp((kManyBrightRays - bright_rays[k]) / (kManyBrightRays - kFewBrightRays), 0.0f, 1.0f);
+        split.bright[k] = std::max(all[k] - mean[k], 0.0f) * part;
+        split.regular[k] = all[k] - split.bright[k];
+    }
+    return split;
 }
 
 /// Elements that the open rays of an element meet.
@@ -81,12 +96,6 @@ OpenRays listOpenRays(const GatherTable& table, size_t element)
             }
     return rays;
 }
-
-/// Place of a texel on its surface.
-struct TexelPlace
-{
-    Float3 position, normal;
-};
 
 /// Texels of a rectangle in the open, by their cells.
 class CellGrid
@@ -162,101 +171,104 @@ void splitTexel(const GatherTable& table, std::span<const float> outgoing, size_
     const OpenRays rays = listOpenRays(table, texel);
     if (rays.count == 0)
         return;
-    const Float3 seen = table.skyIrradiance(texel);
+    Values missed{};
+    if (sky != kInvalidIndex && rays.missed > 0)
+        for (size_t c = 0; c < 3; ++c)
+            missed[3 * sky + c] = table.skyIrradiance(texel)[static_cast<int>(c)] *
+                                  static_cast<float>(rays.count) / static_cast<float>(rays.missed);
+    RayValues values;
+    for (uint32_t i = 0; i < rays.count; ++i)
+    {
+        values[i] = missed;
+        if (rays.hits[i] != kInvalidIndex)
+            std::copy_n(&outgoing[rays.hits[i] * count], count, values[i].begin());
+    }
+    const SplitMean mean = splitMean(values, rays.count);
     for (size_t k = 0; k < count; ++k)
     {
-        const bool is_sky = k / 3 == sky && rays.missed > 0;
-        const float missed = is_sky ? seen[static_cast<int>(k % 3)] * static_cast<float>(rays.count) /
-                                          static_cast<float>(rays.missed)
-                                    : 0;
-        RayValues values;
-        for (uint32_t i = 0; i < rays.count; ++i)
-            values[i] = rays.hits[i] == kInvalidIndex ? missed : outgoing[rays.hits[i] * count + k];
-        const SplitMean mean = splitMean(values, rays.count);
-        light.regular[texel * count + k] = mean.regular;
-        light.bright[texel * count + k] = mean.bright;
-        light.has_bright[texel] |= mean.bright > 0 ? 1 : 0;
+        light.regular[texel * count + k] = mean.regular[k];
+        light.bright[texel * count + k] = mean.bright[k];
+        light.has_bright[texel] |= mean.bright[k] > 0 ? 1 : 0;
     }
 }
 
-/// Return the places of an instance's texels.
-std::vector<TexelPlace> findPlaces(const BakeScene& scene, const TexelDomain& domain)
+/// Numbers of bright texels in rectangles of cells.
+class BrightCells
 {
-    std::vector<TexelPlace> places;
-    for (const DomainTexel& texel : domain.texels)
+public:
+    BrightCells(const TexelDomain& domain, uint32_t first, const SplitLight& split)
+        : width_(domain.width), height_(domain.height), sums_(size_t{width_ + 1} * (height_ + 1))
     {
-        Element middle;
-        middle.points.fill(texel.middle);
-        const ReceivingPoint point = receivingPoint(scene, middle, 0, 0);
-        places.push_back({point.position, point.side});
+        for (uint32_t i = 0; i < domain.texels.size(); ++i)
+            at(domain.texels[i].x + 1u, domain.texels[i].y + 1u) = split.has_bright[first + i];
+        for (uint32_t y = 1; y <= height_; ++y)
+            for (uint32_t x = 1; x <= width_; ++x)
+                at(x, y) += at(x - 1, y) + at(x, y - 1) - at(x - 1, y - 1);
     }
-    return places;
-}
 
-/// Return the world length of a texel, the median of those between neighbours in a row.
-float measureTexel(const TexelDomain& domain, std::span<const TexelPlace> places)
-{
-    std::vector<float> lengths;
-    for (size_t i = 0; i + 1 < places.size(); ++i)
-        if (domain.texels[i + 1].y == domain.texels[i].y && domain.texels[i + 1].x == domain.texels[i].x + 1)
-            lengths.push_back(length(places[i + 1].position - places[i].position));
-    if (lengths.empty())
-        return 0;
-    std::ranges::nth_element(lengths, lengths.begin() + static_cast<std::ptrdiff_t>(lengths.size() / 2));
-    return lengths[lengths.size() / 2];
-}
+    /// Return whether a texel within kSpreadTexels of a cell, each way, is bright.
+    bool isAnyNear(uint32_t x, uint32_t y) const
+    {
+        constexpr auto kReach = static_cast<uint32_t>(kSpreadTexels);
+        const uint32_t left = x - std::min(x, kReach), right = std::min(x + kReach + 1, width_);
+        const uint32_t low = y - std::min(y, kReach), high = std::min(y + kReach + 1, height_);
+        return at(right, high) - at(left, high) - at(right, low) + at(left, low) != 0;
+    }
+
+private:
+    uint32_t at(uint32_t x, uint32_t y) const { return sums_[size_t{y} * (width_ + 1) + x]; }
+    uint32_t& at(uint32_t x, uint32_t y) { return sums_[size_t{y} * (width_ + 1) + x]; }
+
+    uint32_t width_, height_;
+    std::vector<uint32_t> sums_; ///< over all cells before a column and a row
+};
 
 /// Texels of an instance, by which its bright light is spread.
 class Surface
 {
 public:
-    Surface(const BakeScene& scene, const TexelDomain& domain, const GatherTable& table, uint32_t first)
+    Surface(const BakeScene& scene, const TexelDomain& domain, const GatherTable& table,
+            const SplitLight& split, uint32_t first)
         : domain_(domain),
+          split_(split),
           first_(first),
           grid_(domain, table, first),
-          places_(findPlaces(scene, domain)),
-          texel_(measureTexel(domain, places_))
+          bright_(domain, first, split),
+          texels_(scene, domain)
     {
     }
 
     /// Add the mean of the bright light around a texel to its light.
     /// number  of a texel of the domain in the open
-    void spread(size_t number, size_t count, const SplitLight& split, std::vector<float>& light) const
+    void spread(size_t number, size_t count, std::vector<float>& light) const
     {
-        const TexelPlace& at = places_[number];
+        if (!bright_.isAnyNear(domain_.texels[number].x, domain_.texels[number].y))
+            return;
         float weights = 0;
-        std::array<float, 3 * kLightGroup> sums{};
+        Values sums{};
         grid_.visitAround(
             domain_.texels[number].x, domain_.texels[number].y,
-            [&](uint32_t texel, float distance) { return isNear(at, places_[texel - first_], distance); },
+            [&](uint32_t texel, float distance) { return texels_.areNear(number, texel - first_, distance); },
             [&](uint32_t texel, float distance)
             {
                 const float weight = 1 - distance / (kSpreadTexels + 1);
                 weights += weight;
-                if (split.has_bright[texel] == 0)
+                if (split_.has_bright[texel] == 0)
                     return;
                 for (size_t k = 0; k < count; ++k)
-                    sums[k] += split.bright[texel * count + k] * weight;
+                    sums[k] += split_.bright[texel * count + k] * weight;
             });
         for (size_t k = 0; k < count; ++k)
             light[(first_ + number) * count + k] += sums[k] / weights;
     }
 
 private:
-    /// True if a place is on the surface around another, and not on a chart that lies beside it by chance.
-    bool isNear(const TexelPlace& a, const TexelPlace& b, float distance) const
-    {
-        const Float3 offset = b.position - a.position;
-        const float reach = 2 * texel_ * (distance + 1);
-        return dot(a.normal, b.normal) >= kSameSide && dot(offset, offset) <= reach * reach &&
-               std::abs(dot(offset, a.normal)) <= 0.25f * reach;
-    }
-
     const TexelDomain& domain_;
+    const SplitLight& split_;
     uint32_t first_;
     CellGrid grid_;
-    std::vector<TexelPlace> places_;
-    float texel_; ///< metres
+    BrightCells bright_;
+    SurfaceTexels texels_;
 };
 
 using Blocks = tbb::blocked_range<size_t>;
@@ -283,13 +295,13 @@ std::vector<float> gatherTexels(const BakeScene& scene, std::span<const TexelDom
     uint32_t first = 0;
     for (const TexelDomain& domain : domains)
     {
-        const Surface surface(scene, domain, table, first);
+        const Surface surface(scene, domain, table, split, first);
         tbb::parallel_for(Blocks(0, domain.texels.size(), 64),
                           [&](const Blocks& range)
                           {
                               for (size_t number = range.begin(); number != range.end(); ++number)
                                   if (table.openPoints(first + number) != 0)
-                                      surface.spread(number, count, split, light);
+                                      surface.spread(number, count, light);
                           });
         first += static_cast<uint32_t>(domain.texels.size());
     }

@@ -18,10 +18,11 @@ inline constexpr float kBrightRay = 4;
 /// rays meet has little noise, and shadows of its own.
 inline constexpr uint32_t kFewBrightRays = 4, kManyBrightRays = 8;
 
-/// Gather the light of all texels, and spread that of bright rays over texels of the same surface. Where no
-/// rays are bright it is that of GatherTable::gather. Does not depend on the number of threads.
+/// Gather the light of all texels: the mean over the rays of each of what elements send out that they meet, 0
+/// for those that meet none. Spread that of bright rays over texels of the same surface. Does not depend on
+/// the number of threads.
 /// domains      of the elements
-/// outgoing     [elements][light_count][3] of light that elements send out, as for GatherTable::gather
+/// outgoing     [elements][light_count][3] of light that elements send out, over 1 / pi
 /// light_count  1 to kLightGroup
 /// sky          number of the sky among the lights: its rays that meet nothing count, too; or kInvalidIndex
 /// returns      [texels][light_count][3]

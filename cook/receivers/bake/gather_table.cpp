@@ -103,29 +103,4 @@ GatherTable::TracedPoint GatherTable::tracePoint(const BakeScene& scene, const B
     return traced;
 }
 
-void GatherTable::gather(size_t element, std::span<const float> values, size_t count, float* mean) const
-{
-    std::fill_n(mean, count, 0.0f);
-    const uint32_t open = open_[element];
-    if (open == 0)
-        return;
-    for (size_t point = 0; point < kTexelPoints; ++point)
-    {
-        if ((open >> point & 1u) == 0)
-            continue;
-        const uint32_t* hits = &hits_[element * kElementRays + point * kPointRays];
-        for (size_t i = 0; i < kPointRays; ++i)
-        {
-            if (hits[i] == kInvalidIndex)
-                continue;
-            const float* value = &values[hits[i] * count];
-            for (size_t k = 0; k < count; ++k)
-                mean[k] += value[k];
-        }
-    }
-    const float share = 1 / static_cast<float>(countOpenRays(open));
-    for (size_t k = 0; k < count; ++k)
-        mean[k] *= share;
-}
-
 } // namespace hearth::receivers

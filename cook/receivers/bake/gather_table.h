@@ -34,12 +34,6 @@ public:
         return std::span(hits_).subspan(element * kElementRays, kElementRays);
     }
 
-    /// Return the mean over the open points' rays of a value of the elements that they meet, 0 where they
-    /// meet none. 0 for an element without open points.
-    /// values  `count` of each element
-    /// mean    `count` values, set
-    void gather(size_t element, std::span<const float> values, size_t count, float* mean) const;
-
     /// Return the irradiance that the sky causes at an element without a bounce: pi times the mean over the
     /// open points' rays of the sky's radiance, 0 for rays that meet a triangle.
     Float3 skyIrradiance(size_t element) const { return sky_.empty() ? Float3{} : sky_[element]; }
