@@ -20,8 +20,8 @@ struct GroupLight
 };
 
 /// Compute irradiance E = D + G(albedo E), with D of the lights and G the mean of a gather table: the limit
-/// of as many bounces as asked for, or as many as change a tile by more than kSettled of its value. All but the
-/// last are between tiles (BounceTiles). The last one is between elements, and spreads what few rays meet
+/// of as many bounces as asked for, or as many as change a tile by more than kSettled of its value. All but
+/// the last are between tiles (BounceTiles). The last one is between elements, and spreads what few rays meet
 /// (gatherTexels). Does not depend on the number of threads.
 /// domains       of the elements
 /// first, count  lights of the scene, 1 to kLightGroup

@@ -16,8 +16,8 @@ class SurfaceTexels
 public:
     SurfaceTexels(const BakeScene& scene, const TexelDomain& domain);
 
-    /// Return whether two texels are on the same surface: their normals are alike, and they are about as far from
-    /// each other as their cells. Charts may lie side by side in the atlas by chance.
+    /// Return whether two texels are on the same surface: their normals are alike, and they are about as far
+    /// from each other as their cells. Charts may lie side by side in the atlas by chance.
     /// a, b      numbers in the domain
     /// distance  between their cells, in texels
     bool areNear(size_t a, size_t b, float distance) const;

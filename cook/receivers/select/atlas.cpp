@@ -51,21 +51,22 @@ struct Chosen
     double largest_dropped = 0;
 };
 
-/// Return the largest luminance of a lamp that is not kept, as a share of the sum.
+/// Return the largest channel of a lamp that is not kept, over that of the sum of all.
 double measureDropped(std::span<const Float3> light, std::span<const KeptLight> kept)
 {
-    double sum = 0, dropped = 0;
+    Double3 sum{};
+    double dropped = 0;
     size_t next = 0;
     for (size_t lamp = 0; lamp < light.size(); ++lamp)
     {
-        const double y = luminance(widen(light[lamp]));
-        sum += y;
+        const Double3 color = widen(light[lamp]);
+        sum = sum + color;
         if (next < kept.size() && kept[next].lamp == lamp)
             ++next;
         else
-            dropped = std::max(dropped, y);
+            dropped = std::max(dropped, largestChannel(color));
     }
-    return sum > 0 ? dropped / sum : 0;
+    return largestChannel(sum) > 0 ? dropped / largestChannel(sum) : 0;
 }
 
 void chooseTexel(const BakedLight& baked, const SelectOptions& options, uint32_t x, uint32_t y,

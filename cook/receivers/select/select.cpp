@@ -21,7 +21,7 @@ constexpr double kMinRankWeight = 1e-3;
 struct Candidate
 {
     uint32_t lamp;
-    double luminance;
+    double luminance, channel; ///< its largest channel
 };
 
 /// Return the share of its light that a lamp keeps between a and b.
@@ -40,8 +40,8 @@ std::vector<Candidate> rankLamps(std::span<const Float3> light, bool is_steady)
 {
     std::vector<Candidate> lamps;
     for (size_t i = is_steady ? 1 : 0; i < light.size(); ++i)
-        if (const double y = luminance(widen(light[i])); y > 0)
-            lamps.push_back({static_cast<uint32_t>(i), y});
+        if (const Double3 color = widen(light[i]); luminance(color) > 0)
+            lamps.push_back({static_cast<uint32_t>(i), luminance(color), largestChannel(color)});
     std::stable_sort(lamps.begin(), lamps.end(),
                      [](const Candidate& a, const Candidate& b) { return a.luminance > b.luminance; });
     return lamps;
@@ -64,6 +64,11 @@ double luminance(Double3 color)
     return dot(color, widen(shared::kLuminanceWeights));
 }
 
+double largestChannel(Double3 color)
+{
+    return std::max({color.x, color.y, color.z});
+}
+
 void selectLights(std::span<const Float3> light, bool is_steady, const SelectOptions& options,
                   std::vector<KeptLight>& kept)
 {
@@ -73,12 +78,14 @@ void selectLights(std::span<const Float3> light, bool is_steady, const SelectOpt
     if (luminance(steady) > 0)
         kept.push_back({0, steady});
     const std::vector<Candidate> lamps = rankLamps(light, is_steady);
-    double sum = luminance(steady);
-    for (const Candidate& lamp : lamps)
-        sum += lamp.luminance;
+    Double3 sum{};
+    for (const Float3& lamp : light)
+        sum = sum + widen(lamp);
 
-    const double brightest = std::max(luminance(steady), lamps.empty() ? 0 : lamps[0].luminance);
-    const double high = std::min(options.high * sum, brightest);
+    double brightest = largestChannel(steady);
+    for (const Candidate& lamp : lamps)
+        brightest = std::max(brightest, lamp.channel);
+    const double high = std::min(options.high * largestChannel(sum), brightest);
     const double low = high * (options.low / options.high);
     const size_t places = options.max_colors - kept.size();
     const double next = lamps.size() > places ? lamps[places].luminance : 0;
@@ -86,7 +93,7 @@ void selectLights(std::span<const Float3> light, bool is_steady, const SelectOpt
     for (size_t rank = 0; rank < lamps.size(); ++rank)
     {
         const Candidate& lamp = lamps[rank];
-        double weight = rank < places ? clampSmoothly(lamp.luminance, low, high) : 0;
+        double weight = rank < places ? clampSmoothly(lamp.channel, low, high) : 0;
         if (next > 0)
             weight *= std::clamp((lamp.luminance - next) / (kRankFade * lamp.luminance), kMinRankWeight, 1.0);
         const Double3 color = widen(light[lamp.lamp]);

@@ -121,6 +121,13 @@ TEST(SelectLights, luminanceIsOfRec709)
     EXPECT_EQ(kept[1].lamp, 1u);
 }
 
+TEST(SelectLights, keepsABlueLampOfLittleLuminance)
+{
+    // 0.7 % of the luminance, and a tenth of all blue
+    EXPECT_EQ(select({gray(1), {0, 0, 0.1f}}).size(), 2u);
+    EXPECT_EQ(select({gray(1), {0, 0, 0.009f}}).size(), 1u);
+}
+
 TEST(SelectLights, steadyLightIsKeptAndTakesItsShareOfWhatIsDropped)
 {
     const std::vector<KeptLight> kept = select({gray(1), gray(0.5), gray(0.01)}, true);
