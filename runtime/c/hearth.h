@@ -113,7 +113,9 @@ enum
      * HEARTH_MATERIALS_ID and HEARTH_FEATURE_FINAL_PASS, with linear colours of 8 bytes a pixel. */
     HEARTH_FEATURE_DEFERRED = 32,
     /* 1.8: the caller enabled textureCompressionASTC_HDR of VK_EXT_texture_compression_astc_hdr: use it */
-    HEARTH_FEATURE_ASTC_HDR = 64
+    HEARTH_FEATURE_ASTC_HDR = 64,
+    /* 1.8: update texels of baked light by drawn points, for devices with slow compute shaders; same texels */
+    HEARTH_FEATURE_RECEIVER_POINTS = 128
 };
 
 /* Purpose of device memory. */

@@ -15,7 +15,8 @@ namespace
 
 constexpr uint32_t kFeatures = HEARTH_FEATURE_SAMPLER_ANISOTROPY | HEARTH_FEATURE_OVERDRAW |
                                HEARTH_FEATURE_DEBUG_LABELS | HEARTH_FEATURE_GRADING |
-                               HEARTH_FEATURE_FINAL_PASS | HEARTH_FEATURE_DEFERRED | HEARTH_FEATURE_ASTC_HDR;
+                               HEARTH_FEATURE_FINAL_PASS | HEARTH_FEATURE_DEFERRED | HEARTH_FEATURE_ASTC_HDR |
+                               HEARTH_FEATURE_RECEIVER_POINTS;
 
 /// Sizes of the description in versions 1.0, and 1.1 to 1.7.
 constexpr size_t kOldDescriptionBytes[] = {offsetof(hearth_renderer_description, memory),
@@ -127,7 +128,10 @@ Result<std::unique_ptr<hearth_renderer>> create(const hearth_renderer_descriptio
                               {.way = toFrameWay(description.frame_way),
                                .materials = static_cast<gpu::MaterialTest>(description.materials),
                                .post = toPostSupport(description.features),
-                               .deferred = (description.features & HEARTH_FEATURE_DEFERRED) != 0}));
+                               .deferred = (description.features & HEARTH_FEATURE_DEFERRED) != 0,
+                               .receiver_update = (description.features & HEARTH_FEATURE_RECEIVER_POINTS) != 0
+                                                      ? gpu::ReceiverUpdate::points
+                                                      : gpu::ReceiverUpdate::compute}));
     made->shows_overdraw = (description.features & HEARTH_FEATURE_OVERDRAW) != 0;
     if (made->shows_overdraw)
         HEARTH_TRY(made->renderer->prepareOverdraw());

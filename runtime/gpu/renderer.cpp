@@ -116,6 +116,7 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const DeviceDescription& desc
     Renderer& r = *renderer;
     std::vector<RequiredFormat> formats;
     const MaterialTest materials = options.deferred ? MaterialTest::id : options.materials;
+    r.receiver_update_ = options.receiver_update;
     r.post_support_ = options.deferred ? PostSupport::half : options.post;
     if (materials == MaterialTest::id)
         formats.push_back(kStencilFormat);
@@ -317,7 +318,7 @@ Status Renderer::createReceivers(const formats::PackView& pack, Scene& scene)
 {
     if (!receivers_)
     {
-        HEARTH_ASSIGN_OR_RETURN(receivers_, ReceiverPass::create(device_));
+        HEARTH_ASSIGN_OR_RETURN(receivers_, ReceiverPass::create(device_, receiver_update_));
     }
     HEARTH_ASSIGN_OR_RETURN(scene.receivers->atlas,
                             receivers_->upload(device_, pack.receivers(),

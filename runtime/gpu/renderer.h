@@ -98,6 +98,7 @@ struct RendererOptions
     /// Light methods with any LightPath. Their frames have MaterialTest::id and PostSupport::half, which the
     /// renderer has then.
     bool deferred = false;
+    ReceiverUpdate receiver_update = ReceiverUpdate::compute;
 };
 
 class Renderer
@@ -240,8 +241,9 @@ private:
     std::optional<ShadowPass> shadows_[2];      ///< by ShadowDepth; set once a scene has such shadows
     std::optional<BrickLightPass> brick_light_; ///< set once a scene has bricks
     std::optional<GatherPass> gather_;          ///< set once a scene has bricks
-    std::optional<ReceiverPass> receivers_;     ///< set once a scene has receivers
-    std::optional<SkinningPass> skinning_;      ///< set once a scene has deformed meshes
+    ReceiverUpdate receiver_update_ = ReceiverUpdate::compute;
+    std::optional<ReceiverPass> receivers_; ///< set once a scene has receivers
+    std::optional<SkinningPass> skinning_;  ///< set once a scene has deformed meshes
     MaterialTilesPass material_tiles_;
     /// [ShadedOutput]; set once a scene has a light method with it.
     std::array<std::optional<DrawPasses>, kShadedOutputCount> draws_;

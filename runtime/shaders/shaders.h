@@ -44,6 +44,8 @@ extern const std::span<const uint32_t> place_lists_comp;
 extern const std::span<const uint32_t> light_statistics_comp;
 extern const std::span<const uint32_t> light_faces_comp;
 extern const std::span<const uint32_t> receivers_update_comp;
+extern const std::span<const uint32_t> receivers_points_vert;
+extern const std::span<const uint32_t> receivers_points_frag;
 extern const std::span<const uint32_t> gather_points_comp;
 extern const std::span<const uint32_t> gather_rays_comp;
 extern const std::span<const uint32_t> gather_smooth_comp;

@@ -51,6 +51,8 @@ constexpr std::string_view kDrawHelp =
     "      --light-lists gpu|cpu\n"
     "                          which processor lists the lights of cells, default gpu; the lists are the "
     "same\n"
+    "      --receiver-update compute|points\n"
+    "                          how texels of baked light are written, default compute; they are the same\n"
     "      --shadows SETTINGS  on (default), off, or some of maps=N (as many as the lights take, 64 at "
     "most),\n"
     "                          texels=N (1024), kernel=N (1: 3x3), depth=BITS (32; 16: half the memory, "
@@ -436,6 +438,9 @@ void addDrawOptions(CommandLine& command_line, DrawOptions& options)
     command_line.addValue(
         "--light-lists", [&](std::string_view text)
         { return parseChoice("--light-lists", lightListerNames(), text, settings.light_lister); });
+    command_line.addValue(
+        "--receiver-update", [&](std::string_view text)
+        { return parseChoice("--receiver-update", receiverUpdateNames(), text, settings.receiver_update); });
     command_line.addValue(
         "--shaded-area", [&](std::string_view text)
         { return parseChoice("--shaded-area", shadedAreaNames(), text, settings.shaded_area); });

@@ -66,6 +66,13 @@ std::span<const Named<gpu::LightLister>> lightListerNames()
     return kListers;
 }
 
+std::span<const Named<gpu::ReceiverUpdate>> receiverUpdateNames()
+{
+    static constexpr Named<gpu::ReceiverUpdate> kUpdates[] = {{"compute", gpu::ReceiverUpdate::compute},
+                                                              {"points", gpu::ReceiverUpdate::points}};
+    return kUpdates;
+}
+
 std::span<const Named<uint32_t>> ambientOcclusionNames()
 {
     static constexpr Named<uint32_t> kModes[] = {{"exact", shared::kAmbientOcclusionExact},
@@ -131,7 +138,8 @@ gpu::RendererOptions rendererOptions(const FrameSettings& settings)
             .materials = settings.material_test.value_or(
                 settings.occludes_by_last_frame ? gpu::MaterialTest::id : gpu::MaterialTest::depth),
             .post = postSupport(settings),
-            .deferred = gpu::lightMethodFacts(settings.light_method).path != gpu::LightPath::materials};
+            .deferred = gpu::lightMethodFacts(settings.light_method).path != gpu::LightPath::materials,
+            .receiver_update = settings.receiver_update};
 }
 
 gpu::TargetOptions targetOptions(const FrameSettings& settings, const gpu::Scene& scene, VkExtent2D output,

@@ -28,6 +28,7 @@ struct FrameSettings
     bool gi = true;                                              ///< GI, for packs with bricks
     gpu::LightMethod light_method = gpu::LightMethod::practical;
     gpu::LightLister light_lister = gpu::LightLister::gpu;
+    gpu::ReceiverUpdate receiver_update = gpu::ReceiverUpdate::compute;
     gpu::PostSettings post;
     std::optional<VkExtent2D> render_size; ///< pixels that are drawn; none: those of the image
     bool keeps_radiance = false;           ///< as gpu::TargetOptions; in half floats
@@ -50,6 +51,7 @@ std::span<const Named<gpu::MaterialTest>> materialTestNames();
 /// Return all light methods, the default first.
 std::span<const Named<gpu::LightMethod>> lightMethodNames();
 std::span<const Named<gpu::LightLister>> lightListerNames();
+std::span<const Named<gpu::ReceiverUpdate>> receiverUpdateNames();
 std::span<const Named<uint32_t>> ambientOcclusionNames();
 std::span<const Named<uint32_t>> specularOcclusionNames();
 /// Return the culling tests, one per flag.

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/receivers/receiver_pass.h"
 
+#include "formats/gpu_shared/receivers/receiver_points.h"
 #include "formats/gpu_shared/records.h"
 #include "runtime/gpu/vulkan/image_barrier.h"
 #include "runtime/gpu/vulkan/sampler.h"
 #include "runtime/shaders/shaders.h"
 
 #include <cstring>
+#include <string>
 
 namespace hearth::gpu
 {
@@ -15,45 +17,143 @@ namespace
 {
 
 constexpr VkPipelineStageFlags kCompute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
+constexpr VkImageLayout kDrawn = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
 constexpr VkBufferUsageFlags kTable = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 
 /// Create the image, without light.
-Result<Image> createTexels(const formats::ReceiverAtlasRecord& atlas, MemoryArena& arena, Uploader& uploader)
+/// usage  by the way of the update
+Result<Image> createTexels(const formats::ReceiverAtlasRecord& atlas, VkImageUsageFlags usage,
+                           MemoryArena& arena, Uploader& uploader)
 {
-    HEARTH_ASSIGN_OR_RETURN(
-        Image image,
-        arena.createImage({.format = VK_FORMAT_R32_UINT,
-                           .extent = {atlas.width, atlas.height},
-                           .usage = VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_SAMPLED_BIT |
-                                    VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                           .has_views = true}));
+    HEARTH_ASSIGN_OR_RETURN(Image image, arena.createImage({.format = VK_FORMAT_R32_UINT,
+                                                            .extent = {atlas.width, atlas.height},
+                                                            .usage = usage | VK_IMAGE_USAGE_SAMPLED_BIT |
+                                                                     VK_IMAGE_USAGE_TRANSFER_DST_BIT |
+                                                                     VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
+                                                            .has_views = true}));
     const std::vector<uint32_t> dark(size_t{atlas.width} * atlas.height);
     HEARTH_TRY(uploader.upload(image, std::as_bytes(std::span(dark)), {.bytes = sizeof(uint32_t)}));
     return image;
 }
 
+/// Create the render pass in which points are drawn. Texels without a point stay.
+Result<UniqueRenderPass> createPointsPass(const Device& device)
+{
+    VkAttachmentDescription attachment{};
+    attachment.format = VK_FORMAT_R32_UINT;
+    attachment.samples = VK_SAMPLE_COUNT_1_BIT;
+    attachment.loadOp = VK_ATTACHMENT_LOAD_OP_LOAD;
+    attachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    attachment.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+    attachment.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+    attachment.initialLayout = attachment.finalLayout = kDrawn;
+    const VkAttachmentReference reference{0, kDrawn};
+    VkSubpassDescription subpass{};
+    subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
+    subpass.colorAttachmentCount = 1;
+    subpass.pColorAttachments = &reference;
+    VkRenderPassCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO;
+    info.attachmentCount = 1;
+    info.pAttachments = &attachment;
+    info.subpassCount = 1;
+    info.pSubpasses = &subpass;
+    VkRenderPass handle;
+    HEARTH_TRY_VK(device.vk.vkCreateRenderPass(device.handle, &info, device.allocator, &handle),
+                  "create a render pass");
+    return UniqueRenderPass(device, handle);
+}
+
+/// Stages, accesses and layout by which a way writes texels.
+struct TexelAccess
+{
+    VkPipelineStageFlags stages;
+    VkAccessFlags reads, writes;
+    VkImageLayout layout;
+};
+
+constexpr TexelAccess findAccess(ReceiverUpdate update)
+{
+    if (update == ReceiverUpdate::points)
+        return {VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_COLOR_ATTACHMENT_READ_BIT,
+                VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, kDrawn};
+    return {kCompute, 0, VK_ACCESS_SHADER_WRITE_BIT, VK_IMAGE_LAYOUT_GENERAL};
+}
+
 } // namespace
 
-Result<ReceiverPass> ReceiverPass::create(const Device& device)
+Result<ReceiverPass> ReceiverPass::create(const Device& device, ReceiverUpdate update)
 {
-    constexpr VkShaderStageFlags kStage = VK_SHADER_STAGE_COMPUTE_BIT;
-    const SetBinding bindings[] = {storageBinding(shared::kReceiversBlocks, kStage),
-                                   storageBinding(shared::kReceiversWords, kStage),
-                                   storageBinding(shared::kReceiversWeights, kStage),
-                                   {shared::kReceiversTexels, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, kStage}};
+    const bool draws = update == ReceiverUpdate::points;
+    const VkShaderStageFlags stage = draws ? VK_SHADER_STAGE_VERTEX_BIT : VK_SHADER_STAGE_COMPUTE_BIT;
+    std::vector<SetBinding> bindings{storageBinding(shared::kReceiversBlocks, stage),
+                                     storageBinding(shared::kReceiversWords, stage),
+                                     storageBinding(shared::kReceiversWeights, stage)};
+    if (!draws)
+        bindings.push_back({shared::kReceiversTexels, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, stage});
     ReceiverPass pass;
+    pass.update_ = update;
     HEARTH_ASSIGN_OR_RETURN(UniqueSetLayout layout, createSetLayout(device, bindings));
     const NumberedSet sets[] = {{shared::kSetReceivers, layout.get()}};
-    HEARTH_ASSIGN_OR_RETURN(pass.pipeline_, createComputePipeline(device, shaders::receivers_update_comp,
-                                                                  sets, sizeof(shared::ReceiversPush)));
+    if (draws)
+        HEARTH_TRY(pass.createPoints(device, sets));
+    else
+    {
+        HEARTH_ASSIGN_OR_RETURN(pass.pipeline_, createComputePipeline(device, shaders::receivers_update_comp,
+                                                                      sets, sizeof(shared::ReceiversPush)));
+    }
     pass.pipeline_.set_layout = std::move(layout);
     return pass;
+}
+
+Status ReceiverPass::createPoints(const Device& device, std::span<const NumberedSet> sets)
+{
+    HEARTH_ASSIGN_OR_RETURN(render_pass_, createPointsPass(device));
+    HEARTH_ASSIGN_OR_RETURN(pipeline_.layout, createPipelineLayout(device, sets, VK_SHADER_STAGE_VERTEX_BIT,
+                                                                   sizeof(shared::ReceiverPointsPush)));
+    HEARTH_ASSIGN_OR_RETURN(pipeline_.pipeline,
+                            createGraphicsPipeline(device, {.vertex = shaders::receivers_points_vert,
+                                                            .fragment = shaders::receivers_points_frag,
+                                                            .layout = pipeline_.layout.get(),
+                                                            .render_pass = render_pass_.get(),
+                                                            .subpass = 0,
+                                                            .depth_compare = VK_COMPARE_OP_ALWAYS,
+                                                            .depth_write = false,
+                                                            .colors = 1,
+                                                            .topology = VK_PRIMITIVE_TOPOLOGY_POINT_LIST}));
+    return success();
+}
+
+Status ReceiverPass::createFramebuffer(const Device& device, ReceiverAtlas& atlas) const
+{
+    const uint32_t width = atlas.record.width, height = atlas.record.height;
+    if (width > device.limits.maxFramebufferWidth || height > device.limits.maxFramebufferHeight)
+        return Error{Issue::device_limit, "", "receivers",
+                     "an atlas of " + std::to_string(width) + " x " + std::to_string(height) +
+                         " texels cannot be updated by points: the device draws to " +
+                         std::to_string(device.limits.maxFramebufferWidth) + " x " +
+                         std::to_string(device.limits.maxFramebufferHeight)};
+    const VkImageView view = atlas.texels.view.get();
+    VkFramebufferCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
+    info.renderPass = render_pass_.get();
+    info.attachmentCount = 1;
+    info.pAttachments = &view;
+    info.width = width;
+    info.height = height;
+    info.layers = 1;
+    VkFramebuffer framebuffer;
+    HEARTH_TRY_VK(device.vk.vkCreateFramebuffer(device.handle, &info, device.allocator, &framebuffer),
+                  "create a framebuffer");
+    atlas.framebuffer = UniqueFramebuffer(device, framebuffer);
+    return success();
 }
 
 Result<ReceiverAtlas> ReceiverPass::upload(const Device& device, const formats::ReceiverTables& tables,
                                            uint32_t frames, Uploader& uploader) const
 {
     HEARTH_ASSERT(frames > 0);
+    const bool draws = update_ == ReceiverUpdate::points;
     ReceiverAtlas atlas(device);
     atlas.record = tables.atlas;
     HEARTH_ASSIGN_OR_RETURN(atlas.blocks,
@@ -65,18 +165,25 @@ Result<ReceiverAtlas> ReceiverPass::upload(const Device& device, const formats::
     HEARTH_ASSIGN_OR_RETURN(atlas.weights,
                             atlas.arena.createBuffer(frames * tables.lamps.size() * sizeof(Float4),
                                                      VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, MemoryKind::upload));
-    HEARTH_ASSIGN_OR_RETURN(atlas.texels, createTexels(tables.atlas, atlas.arena, uploader));
+    HEARTH_ASSIGN_OR_RETURN(
+        atlas.texels,
+        createTexels(tables.atlas, draws ? VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT : VK_IMAGE_USAGE_STORAGE_BIT,
+                     atlas.arena, uploader));
+    if (draws)
+        HEARTH_TRY(createFramebuffer(device, atlas));
     HEARTH_ASSIGN_OR_RETURN(atlas.colors, createView(device, atlas.texels, VK_FORMAT_E5B9G9R9_UFLOAT_PACK32,
                                                      VK_IMAGE_USAGE_SAMPLED_BIT));
     HEARTH_ASSIGN_OR_RETURN(atlas.sampler, createClampingSampler(device, VK_FILTER_LINEAR));
-    HEARTH_ASSIGN_OR_RETURN(atlas.pool, createDescriptorPool(device, 1, {.storages = 3, .images = 1}));
+    HEARTH_ASSIGN_OR_RETURN(atlas.pool,
+                            createDescriptorPool(device, 1, {.storages = 3, .images = draws ? 0u : 1u}));
     HEARTH_ASSIGN_OR_RETURN(atlas.set, allocateSet(device, atlas.pool.get(), pipeline_.set_layout.get()));
-    DescriptorWriter(atlas.set)
-        .storage(shared::kReceiversBlocks, atlas.blocks)
+    DescriptorWriter writer(atlas.set);
+    writer.storage(shared::kReceiversBlocks, atlas.blocks)
         .storage(shared::kReceiversWords, atlas.words)
-        .storage(shared::kReceiversWeights, atlas.weights)
-        .image(shared::kReceiversTexels, atlas.texels.view.get())
-        .write(device);
+        .storage(shared::kReceiversWeights, atlas.weights);
+    if (!draws)
+        writer.image(shared::kReceiversTexels, atlas.texels.view.get());
+    writer.write(device);
     return atlas;
 }
 
@@ -94,28 +201,63 @@ void ReceiverPass::record(const Device& device, VkCommandBuffer commands, const 
         std::memcpy(atlas.weights.mapped + (first_weight + i) * sizeof(weight), &weight, sizeof(weight));
     }
     constexpr VkPipelineStageFlags kReaders = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | kCompute;
-    transition(device, commands, atlas.texels, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
-               VK_IMAGE_LAYOUT_GENERAL, VK_ACCESS_SHADER_WRITE_BIT, VK_ACCESS_SHADER_WRITE_BIT, kReaders,
-               kCompute);
-    device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.pipeline.get());
-    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.layout.get(),
-                                      shared::kSetReceivers, 1, &atlas.set, 0, nullptr);
+    const TexelAccess access = findAccess(update_);
+    transition(device, commands, atlas.texels, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, access.layout,
+               access.writes, access.reads | access.writes, kReaders, access.stages);
+    beginUpdate(device, commands, atlas);
     uint32_t first = 0;
     for (uint32_t group = 0; group < shared::kReceiverGroups; ++group)
     {
         const uint32_t end = first + atlas.record.group_blocks[group];
         for (; (groups >> group & 1) != 0 && first < end; first += shared::kMaxDispatchX)
-        {
-            const shared::ReceiversPush push{first, first_weight, atlas.record.codec};
-            device.vk.vkCmdPushConstants(commands, pipeline_.layout.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                                         sizeof(push), &push);
-            device.vk.vkCmdDispatch(commands, std::min(end - first, shared::kMaxDispatchX), 1, 1);
-        }
+            recordBlocks(device, commands, atlas, {first, first_weight, atlas.record.codec},
+                         std::min(end - first, shared::kMaxDispatchX));
         first = end;
     }
-    transition(device, commands, atlas.texels, VK_IMAGE_LAYOUT_GENERAL,
-               VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_ACCESS_SHADER_WRITE_BIT,
-               VK_ACCESS_SHADER_READ_BIT, kCompute, kReaders);
+    if (update_ == ReceiverUpdate::points)
+        device.vk.vkCmdEndRenderPass(commands);
+    transition(device, commands, atlas.texels, access.layout, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+               access.writes, VK_ACCESS_SHADER_READ_BIT, access.stages, kReaders);
+}
+
+void ReceiverPass::beginUpdate(const Device& device, VkCommandBuffer commands,
+                               const ReceiverAtlas& atlas) const
+{
+    const VkPipelineBindPoint point =
+        update_ == ReceiverUpdate::points ? VK_PIPELINE_BIND_POINT_GRAPHICS : VK_PIPELINE_BIND_POINT_COMPUTE;
+    device.vk.vkCmdBindPipeline(commands, point, pipeline_.pipeline.get());
+    device.vk.vkCmdBindDescriptorSets(commands, point, pipeline_.layout.get(), shared::kSetReceivers, 1,
+                                      &atlas.set, 0, nullptr);
+    if (update_ == ReceiverUpdate::compute)
+        return;
+    const VkRect2D area{{0, 0}, {atlas.record.width, atlas.record.height}};
+    VkRenderPassBeginInfo begin{};
+    begin.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
+    begin.renderPass = render_pass_.get();
+    begin.framebuffer = atlas.framebuffer.get();
+    begin.renderArea = area;
+    device.vk.vkCmdBeginRenderPass(commands, &begin, VK_SUBPASS_CONTENTS_INLINE);
+    const VkViewport viewport{
+        0, 0, static_cast<float>(atlas.record.width), static_cast<float>(atlas.record.height), 0, 1};
+    device.vk.vkCmdSetViewport(commands, 0, 1, &viewport);
+    device.vk.vkCmdSetScissor(commands, 0, 1, &area);
+}
+
+void ReceiverPass::recordBlocks(const Device& device, VkCommandBuffer commands, const ReceiverAtlas& atlas,
+                                const shared::ReceiversPush& push, uint32_t count) const
+{
+    if (update_ == ReceiverUpdate::compute)
+    {
+        device.vk.vkCmdPushConstants(commands, pipeline_.layout.get(), VK_SHADER_STAGE_COMPUTE_BIT, 0,
+                                     sizeof(push), &push);
+        device.vk.vkCmdDispatch(commands, count, 1, 1);
+        return;
+    }
+    const shared::ReceiverPointsPush points{push, 2 / static_cast<float>(atlas.record.width),
+                                            2 / static_cast<float>(atlas.record.height)};
+    device.vk.vkCmdPushConstants(commands, pipeline_.layout.get(), VK_SHADER_STAGE_VERTEX_BIT, 0,
+                                 sizeof(points), &points);
+    device.vk.vkCmdDraw(commands, shared::kReceiverBlockTexels, count, 0, 0);
 }
 
 } // namespace hearth::gpu

@@ -10,6 +10,13 @@
 namespace hearth::gpu
 {
 
+/// Way to write texels: both give the same bytes.
+enum class ReceiverUpdate : uint8_t
+{
+    compute, ///< a thread a texel
+    points,  ///< a drawn point a texel, for devices with slow compute shaders
+};
+
 /// Atlas of a pack on the device. `arena` is the first member: buffers and images go before it.
 struct ReceiverAtlas
 {
@@ -20,8 +27,9 @@ struct ReceiverAtlas
     Buffer blocks, words;
     Buffer weights; ///< mapped: for each frame in flight, four floats for each lamp
     Image texels;   ///< R32_UINT words of E5B9G9R9, irradiance / scale; readable by shaders between updates
-    UniqueImageView colors; ///< of the texels as E5B9G9R9, for `sampler`
-    UniqueSampler sampler;  ///< bilinear
+    UniqueImageView colors;        ///< of the texels as E5B9G9R9, for `sampler`
+    UniqueSampler sampler;         ///< bilinear
+    UniqueFramebuffer framebuffer; ///< of the texels, for ReceiverUpdate::points
     UniqueDescriptorPool pool;
     VkDescriptorSet set = VK_NULL_HANDLE;
 };
@@ -30,16 +38,16 @@ class ReceiverPass
 {
 public:
     /// errors: device_failed.
-    static Result<ReceiverPass> create(const Device& device);
+    static Result<ReceiverPass> create(const Device& device, ReceiverUpdate update);
 
     /// Upload an atlas of a checked pack. All texels begin without light.
     /// frames  in flight, at least 1
-    /// errors: device_failed.
+    /// errors: device_limit (an atlas larger than what points can be drawn to), device_failed.
     Result<ReceiverAtlas> upload(const Device& device, const formats::ReceiverTables& tables, uint32_t frames,
                                  Uploader& uploader) const;
 
     /// Record the update of some groups; nothing if there is none. Outside a render pass. Clobbers the
-    /// compute state.
+    /// compute or the graphics state.
     /// frame    slot of the frame, below the number of frames in flight; no other one is written
     /// weights  [lamp_count]
     /// groups   by bits: of ReceiverSchedule::nextGroups()
@@ -47,7 +55,15 @@ public:
                 std::span<const Float3> weights, uint32_t groups) const;
 
 private:
-    ComputePipeline pipeline_;
+    Status createPoints(const Device& device, std::span<const NumberedSet> sets);
+    Status createFramebuffer(const Device& device, ReceiverAtlas& atlas) const;
+    void beginUpdate(const Device& device, VkCommandBuffer commands, const ReceiverAtlas& atlas) const;
+    void recordBlocks(const Device& device, VkCommandBuffer commands, const ReceiverAtlas& atlas,
+                      const shared::ReceiversPush& push, uint32_t count) const;
+
+    ReceiverUpdate update_ = ReceiverUpdate::compute;
+    UniqueRenderPass render_pass_; ///< of points
+    ComputePipeline pipeline_;     ///< the layouts of either way
 };
 
 } // namespace hearth::gpu

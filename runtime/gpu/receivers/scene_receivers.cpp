@@ -64,6 +64,8 @@ SceneReceivers::SceneReceivers(const formats::PackView& pack, std::span<const sh
         row.size = rect.width | rect.height << 16;
         sizes_[rect.instance] = row.size;
     }
+    for (uint32_t groups = 0; groups < costs_.size(); ++groups)
+        costs_[groups] = pack::countUpdate(tables, groups);
 }
 
 bool SceneReceivers::takeLight(uint32_t slot, const shared::Light& light)

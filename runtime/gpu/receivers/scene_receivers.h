@@ -7,8 +7,9 @@
 #include "formats/gpu_shared/shading.h"
 #include "formats/pack/pack_view.h"
 #include "runtime/gpu/receivers/receiver_pass.h"
-#include "runtime/pack/receivers/receiver_schedule.h"
+#include "runtime/pack/receivers/receiver_light.h"
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -41,6 +42,10 @@ public:
     uint32_t beginUpdate();
     /// Groups of the last frame.
     uint32_t updatedGroups() const { return updated_groups_; }
+    /// Cost of an update of all groups.
+    const pack::ReceiverCost& fullCost() const { return costs_.back(); }
+    /// Cost of the last frame's update.
+    const pack::ReceiverCost& updateCost() const { return costs_[updated_groups_]; }
     std::span<const Float3> weights() const { return schedule_.weights(); }
 
     std::optional<ReceiverAtlas> atlas; ///< set by the upload
@@ -52,6 +57,7 @@ private:
     std::vector<shared::ReceiverRow> rows_;
     std::vector<uint32_t> sizes_; ///< [instance]: ReceiverRow::size at rest
     pack::ReceiverSchedule schedule_;
+    std::array<pack::ReceiverCost, 1u << shared::kReceiverGroups> costs_; ///< by groups
     uint32_t updated_groups_ = 0;
 };
 

@@ -87,9 +87,10 @@ struct GraphicsDescription
     bool color_write = true;
     bool add = false; ///< blend additively into all of them
     Stencil stencil = Stencil::none;
+    VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     std::span<const uint32_t> constants{}; ///< value of specialization constant i, for both stages
 };
-/// Create a graphics pipeline: triangles without vertex buffers; dynamic viewport and scissor.
+/// Create a graphics pipeline without vertex buffers; dynamic viewport and scissor.
 Result<UniquePipeline> createGraphicsPipeline(const Device& device, const GraphicsDescription& description);
 
 /// Layout of a depth that is read while its stencil is written.

@@ -36,6 +36,23 @@ void updateReceivers(const formats::ReceiverTables& tables, std::span<const Floa
     }
 }
 
+ReceiverCost countUpdate(const formats::ReceiverTables& tables, uint32_t groups)
+{
+    ReceiverCost cost;
+    for (const ReceiverBlockRecord& block : tables.blocks)
+    {
+        if ((groups >> block.group & 1) == 0)
+            continue;
+        cost.texels += block.texel_count;
+        cost.read_bytes +=
+            sizeof(block) + uint64_t{block.texel_count} * (1 + block.color_count) * sizeof(uint32_t);
+    }
+    if (groups != 0)
+        cost.read_bytes += tables.lamps.size() * sizeof(Float4);
+    cost.written_bytes = cost.texels * sizeof(uint32_t);
+    return cost;
+}
+
 ReceiverLight::ReceiverLight(const formats::ReceiverTables& tables)
     : tables_(tables),
       schedule_(tables.lamps.size()),

@@ -19,6 +19,20 @@ namespace hearth::pack
 void updateReceivers(const formats::ReceiverTables& tables, std::span<const Float3> weights, uint32_t groups,
                      std::span<uint32_t> texels);
 
+/// Work of an update, and the bytes that it moves if each is read and written once.
+struct ReceiverCost
+{
+    uint64_t texels = 0;
+    uint64_t read_bytes = 0; ///< of blocks, words and weights
+    uint64_t written_bytes = 0;
+
+    bool operator==(const ReceiverCost&) const = default;
+};
+
+/// Count what the update of some groups costs: nothing for none.
+/// groups  by bits
+ReceiverCost countUpdate(const formats::ReceiverTables& tables, uint32_t groups);
+
 /// Atlas of one checked pack, which must outlive it. All texels begin with no light; those of no block keep
 /// it. Only the constructor allocates.
 class ReceiverLight

@@ -307,6 +307,7 @@ public:
             .shadows = shadows_,
             .skinning = skinning_,
             .bricks = scene_.bricks == nullptr ? std::nullopt : std::optional(countBricks(scene_, targets_)),
+            .receivers = scene_.receivers == nullptr ? std::nullopt : std::optional(countReceivers(scene_)),
             .lights = light_counts_,
             .milliseconds = medianPassTimes(times_)};
         const std::string text = formatReport(report, pack_);

@@ -6,6 +6,7 @@
 #include "runtime/gpu/statistics/light_statistics_pass.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstdio>
 #include <cstring>
 
@@ -146,6 +147,14 @@ BrickCounts countBricks(const gpu::Scene& scene, const gpu::FrameTargets& target
     return counts;
 }
 
+ReceiverCounts countReceivers(const gpu::Scene& scene)
+{
+    HEARTH_ASSERT(scene.receivers != nullptr);
+    return {.texels = scene.receivers->fullCost().texels,
+            .groups = static_cast<uint32_t>(std::popcount(scene.receivers->updatedGroups())),
+            .cost = scene.receivers->updateCost()};
+}
+
 std::array<double, gpu::kTimestampCount> medianPassTimes(const std::vector<std::vector<double>>& frames)
 {
     std::array<double, gpu::kTimestampCount> medians{};
@@ -183,6 +192,15 @@ std::string formatLights(const LightCounts& lights)
            ",\"reaching\":" + join(c.reaching_low, c.reaching_high) +
            ",\"longest\":" + std::to_string(c.longest) + ",\"shadowed\":" + std::to_string(lights.shadowed) +
            ",\"unshadowed\":" + std::to_string(lights.unshadowed) + "}";
+}
+
+std::string formatReceivers(const ReceiverCounts& receivers)
+{
+    return "{\"texels\":" + std::to_string(receivers.texels) +
+           ",\"updated_groups\":" + std::to_string(receivers.groups) +
+           ",\"updated_texels\":" + std::to_string(receivers.cost.texels) +
+           ",\"read_bytes\":" + std::to_string(receivers.cost.read_bytes) +
+           ",\"written_bytes\":" + std::to_string(receivers.cost.written_bytes) + "}";
 }
 
 } // namespace
@@ -248,6 +266,8 @@ std::string formatReport(const FrameReport& report, const formats::PackView& pac
                           ",\"period\":" + std::to_string(report.bricks->period) +
                           ",\"rays\":" + std::to_string(report.bricks->rays) +
                           ",\"tiles\":" + std::to_string(report.bricks->tiles) + "}");
+    if (report.receivers)
+        add("receivers", formatReceivers(*report.receivers));
     add("milliseconds",
         "{\"frame\":" + number(report.milliseconds[0]) +
             ",\"shadows\":" + number(report.milliseconds[gpu::kTimestampShadows]) +

@@ -49,6 +49,15 @@ struct BrickCounts
 };
 BrickCounts countBricks(const gpu::Scene& scene, const gpu::FrameTargets& targets);
 
+/// Baked light of a scene with receivers in the last frame.
+struct ReceiverCounts
+{
+    uint64_t texels = 0;     ///< of the atlas that have light
+    uint32_t groups = 0;     ///< of four, that the frame updated
+    pack::ReceiverCost cost; ///< of the update
+};
+ReceiverCounts countReceivers(const gpu::Scene& scene);
+
 struct FrameCounts
 {
     uint64_t drawn_clusters = 0, early_clusters = 0, dropped_clusters = 0, drawn_triangles = 0;
@@ -78,11 +87,12 @@ struct FrameReport
     uint64_t scene_bytes = 0, target_bytes = 0;
     MemoryCounts memory;
     uint32_t dropped_lights = 0;
-    std::vector<FrameCounts> frames;        ///< at least one
-    std::vector<StreamCounts> streaming;    ///< per frame; empty if all geometry is resident
-    std::vector<ShadowCounts> shadows;      ///< per frame; empty without shadows
-    std::optional<SkinningCounts> skinning; ///< of the last frame; none without characters
-    std::optional<BrickCounts> bricks;      ///< of the last frame; none without bricks
+    std::vector<FrameCounts> frames;         ///< at least one
+    std::vector<StreamCounts> streaming;     ///< per frame; empty if all geometry is resident
+    std::vector<ShadowCounts> shadows;       ///< per frame; empty without shadows
+    std::optional<SkinningCounts> skinning;  ///< of the last frame; none without characters
+    std::optional<BrickCounts> bricks;       ///< of the last frame; none without bricks
+    std::optional<ReceiverCounts> receivers; ///< of the last frame; none without receivers
     LightCounts lights;
     /// Time of the pass that ends with the timestamp; [0] is the whole frame.
     std::array<double, gpu::kTimestampCount> milliseconds{};

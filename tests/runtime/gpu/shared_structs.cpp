@@ -8,7 +8,7 @@
 #include "formats/gpu_shared/light_cells.h"
 #include "formats/gpu_shared/material_tiles.h"
 #include "formats/gpu_shared/push_constants.h"
-#include "formats/gpu_shared/receivers/receivers.h"
+#include "formats/gpu_shared/receivers/receiver_points.h"
 #include "formats/gpu_shared/shading.h"
 #include "formats/gpu_shared/shadow.h"
 
@@ -162,6 +162,7 @@ std::vector<SharedStruct> frameStructs()
         HEARTH_STRUCT(EmissionBox, box_min, factor, box_max, reserved),
         HEARTH_STRUCT(BrickGroup, brick_mask_low, brick_mask_high, first_brick),
         HEARTH_STRUCT(ReceiversPush, first_block, first_weight, codec),
+        HEARTH_STRUCT(ReceiverPointsPush, update, texel_width, texel_height),
         HEARTH_STRUCT(ReceiverBlock, first_word, texel_count, color_count, group, lamps),
         HEARTH_STRUCT(Brick, voxel_mask_low, voxel_mask_high, face_masks, first_voxel, first_face),
         HEARTH_STRUCT(BrickLight, code, rest),

@@ -135,6 +135,26 @@ TEST(ReceiverLight, fourPartialUpdatesAreOneFullUpdateBitForBit)
     EXPECT_NE(updateAll(atlas, before), full);
 }
 
+TEST(ReceiverLight, updatesCostWhatTheirTexelsHave)
+{
+    const RandomReceivers scene(61, 44, 9, 6);
+    const receivers::Atlas atlas = receivers::packAtlas(scene.baked(), {});
+    for (uint32_t groups = 0; groups <= kAllGroups; ++groups)
+    {
+        constexpr uint32_t kUntouched = 0xDEADBEEF;
+        std::vector<uint32_t> texels(size_t{61} * 44, kUntouched);
+        pack::updateReceivers(atlas.tables(), randomWeights(9, 1), groups, texels);
+        const auto written = texels.size() - static_cast<size_t>(std::ranges::count(texels, kUntouched));
+        const pack::ReceiverCost cost = pack::countUpdate(atlas.tables(), groups);
+        EXPECT_EQ(cost.texels, written) << groups;
+        EXPECT_EQ(cost.written_bytes, 4 * written) << groups;
+    }
+    EXPECT_EQ(pack::countUpdate(atlas.tables(), 0), pack::ReceiverCost{});
+    // all is the whole of the tables
+    EXPECT_EQ(pack::countUpdate(atlas.tables(), kAllGroups).read_bytes,
+              4 * atlas.words.size() + 40 * atlas.blocks.size() + 16 * atlas.lamps.size());
+}
+
 TEST(ReceiverLight, partialUpdatesLeaveOtherTexelsAlone)
 {
     const RandomReceivers scene(24, 16, 6, 8);

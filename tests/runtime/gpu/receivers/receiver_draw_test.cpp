@@ -250,6 +250,25 @@ TEST_F(ReceiverDrawTest, weightsOfManyFramesAreThoseOfOne)
     EXPECT_EQ(last, expected);
 }
 
+TEST_F(ReceiverDrawTest, pointsDrawTheSameImage)
+{
+    ReceiverRoom room;
+    addTwoLamps(room);
+    const auto pack = room.build();
+    const std::vector<Float3> expected = drawRadiance(*load(pack));
+    gpu::RendererOptions options = testRendererOptions();
+    options.deferred = true;
+    options.receiver_update = gpu::ReceiverUpdate::points;
+    replaceRenderer(options);
+    const auto scene = load(pack);
+    EXPECT_EQ(drawRadiance(*scene), expected);
+    EXPECT_EQ(scene->receivers->updateCost(), scene->receivers->fullCost());
+    drawRadiance(*scene);
+    EXPECT_EQ(scene->receivers->updateCost(), pack::ReceiverCost{}) << "nothing has changed";
+    options.receiver_update = gpu::ReceiverUpdate::compute;
+    replaceRenderer(options);
+}
+
 TEST_F(ReceiverDrawTest, aMovedInstanceLosesItsRectangle)
 {
     ReceiverRoom room;

@@ -26,7 +26,7 @@ std::vector<Float3> randomWeights(size_t lamps, uint32_t seed)
     return weights;
 }
 
-class ReceiverPassTest : public testing::Test
+class ReceiverPassTest : public testing::TestWithParam<gpu::ReceiverUpdate>
 {
 protected:
     void SetUp() override
@@ -45,7 +45,7 @@ protected:
                                          std::span<const std::vector<Float3>> weights,
                                          std::span<const uint32_t> groups)
     {
-        HEARTH_ASSIGN_OR_RETURN(const gpu::ReceiverPass pass, gpu::ReceiverPass::create(device_));
+        HEARTH_ASSIGN_OR_RETURN(const gpu::ReceiverPass pass, gpu::ReceiverPass::create(device_, GetParam()));
         std::optional<gpu::ReceiverAtlas> scene;
         std::optional<gpu::Uploader> uploader;
         const auto frames = static_cast<uint32_t>(groups.size());
@@ -70,7 +70,7 @@ protected:
     gpu::Device device_;
 };
 
-TEST_F(ReceiverPassTest, givesTheBytesOfTheCpu)
+TEST_P(ReceiverPassTest, givesTheBytesOfTheCpu)
 {
     const RandomReceivers random(150, 90, 13, 6);
     for (const auto codec : {formats::ReceiverCodec::rgb9e5, formats::ReceiverCodec::rgbm})
@@ -90,7 +90,7 @@ TEST_F(ReceiverPassTest, givesTheBytesOfTheCpu)
     }
 }
 
-TEST_F(ReceiverPassTest, recordsNothingForNoGroup)
+TEST_P(ReceiverPassTest, recordsNothingForNoGroup)
 {
     const RandomReceivers random(16, 16, 4, 7);
     const receivers::Atlas atlas = receivers::packAtlas(random.baked(), {});
@@ -100,6 +100,11 @@ TEST_F(ReceiverPassTest, recordsNothingForNoGroup)
     ASSERT_TRUE(words.ok()) << formatMessage(words.error());
     EXPECT_EQ(*words, std::vector<uint32_t>(256));
 }
+
+INSTANTIATE_TEST_SUITE_P(Ways, ReceiverPassTest,
+                         testing::Values(gpu::ReceiverUpdate::compute, gpu::ReceiverUpdate::points),
+                         [](const auto& way)
+                         { return way.param == gpu::ReceiverUpdate::compute ? "compute" : "points"; });
 
 } // namespace
 

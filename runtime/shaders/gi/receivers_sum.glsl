@@ -1,0 +1,23 @@
+// Light of a texel of receivers: the sum of what each lamp gives, by its weight, as the words of the atlas
+// have it. It has the bytes of receiver_light.h.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+
+layout(set = kSetReceivers, binding = kReceiversBlocks, std430) readonly buffer Blocks { ReceiverBlock blocks[]; };
+layout(set = kSetReceivers, binding = kReceiversWords, std430) readonly buffer Words { uint words[]; };
+layout(set = kSetReceivers, binding = kReceiversWeights, std430) readonly buffer Weights { vec4 weights[]; };
+
+/// texel  number in the block
+/// place  set to that in the atlas
+uint sumReceiver(ReceiverBlock block, uint texel, ReceiversPush push, out uvec2 place)
+{
+    uint word = block.first_word + texel;
+    place = uvec2(receiverX(words[word]), receiverY(words[word]));
+    vec3 sum = vec3(0.0);
+    for (uint color = 0u; color < block.color_count; ++color)
+    {
+        word += block.texel_count;
+        vec3 weight = weights[push.first_weight + receiverLamp(block, color)].xyz;
+        sum = addReceiverLight(sum, weight, decodeReceiverColor(words[word], push.codec));
+    }
+    return encodeSharedExponentWord(sum);
+}
