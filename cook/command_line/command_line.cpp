@@ -267,6 +267,14 @@ Option CommandLine::addFlag(const std::string& names, std::string& value, const 
     return Option(*app_->add_flag(names, value, description));
 }
 
+/// Let the option take the next word of the command line where that is its own.
+void CommandLine::takeOptionalWord(const std::string& names,
+                                   const std::function<bool(const std::string&)>& accepts)
+{
+    for (const std::string& name : splitText(names, ','))
+        accepts_word_[name] = accepts;
+}
+
 Option CommandLine::addOptionalChoice(const std::string& names, std::string& value,
                                       const std::vector<std::string>& words, const std::string& bare,
                                       const std::string& description)
@@ -274,18 +282,39 @@ Option CommandLine::addOptionalChoice(const std::string& names, std::string& val
     std::string type_name;
     for (const std::string& word : words)
         type_name += (type_name.empty() ? "" : "|") + word;
-    for (const std::string& name : splitText(names, ','))
-        optional_words_[name] = words;
+    takeOptionalWord(names, [words](const std::string& word) { return std::ranges::count(words, word) > 0; });
     CLI::Option* option = app_->add_flag(names + "{" + bare + "}", value, description);
     return Option(*option->check(CLI::IsMember(words).description(""))).typeName(type_name);
+}
+
+Option CommandLine::addOptionalNumber(const std::string& names, std::optional<uint32_t>& value,
+                                      const std::string& bare, const std::string& description)
+{
+    const auto parse = [bare](const std::string& word) -> std::optional<uint32_t>
+    {
+        uint32_t number = 0;
+        const bool is_number = word != bare && CLI::detail::lexical_cast(word, number);
+        return is_number ? std::optional(number) : std::nullopt;
+    };
+    takeOptionalWord(names, [parse](const std::string& word) { return parse(word).has_value(); });
+    CLI::Option* option = app_->add_flag(names + "{" + bare + "}")->description(description);
+    option->check([parse, bare](const std::string& word)
+                  { return word == bare || parse(word) ? "" : "\"" + word + "\" is not a whole number"; });
+    option->each(
+        [parse, &value](const std::string& word)
+        {
+            if (const std::optional<uint32_t> number = parse(word))
+                value = number;
+        });
+    return Option(*option).typeName("N");
 }
 
 /// Join the words of options with an optional word to their options: CLI11 knows only "--bricks=off".
 void CommandLine::joinOptionalWords(std::vector<std::string>& words) const
 {
     for (size_t i = 0; i + 1 < words.size() && words[i] != "--"; ++i)
-        if (const auto found = optional_words_.find(words[i]);
-            found != optional_words_.end() && std::ranges::count(found->second, words[i + 1]) > 0)
+        if (const auto found = accepts_word_.find(words[i]);
+            found != accepts_word_.end() && found->second(words[i + 1]))
         {
             words[i] += "=" + words[i + 1];
             words.erase(words.begin() + static_cast<ptrdiff_t>(i) + 1);

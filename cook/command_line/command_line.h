@@ -121,6 +121,11 @@ public:
                              const std::vector<std::string>& words, const std::string& bare,
                              const std::string& description);
 
+    /// Add an option with an optional number, as "--probe", "--probe 2" or "--probe=2". Without a number, or
+    /// with the word `bare`, the variable is unchanged.
+    Option addOptionalNumber(const std::string& names, std::optional<uint32_t>& value,
+                             const std::string& bare, const std::string& description);
+
     /// Add a subcommand, which lives as long as this object.
     CommandLine& addSubcommand(const std::string& name, const std::string& description);
     /// Make it an error to name no subcommand.
@@ -154,6 +159,7 @@ private:
     explicit CommandLine(std::shared_ptr<CLI::App> app);
     template <typename T>
     Option bind(const std::string& names, T& variable, const std::string& description);
+    void takeOptionalWord(const std::string& names, const std::function<bool(const std::string&)>& accepts);
     Option addNumberedChoice(const std::string& names, const std::map<std::string, int>& words,
                              std::function<void(int)> store, const std::string& description);
     void finish() const;
@@ -161,7 +167,8 @@ private:
 
     std::shared_ptr<CLI::App> app_;
     std::vector<std::unique_ptr<CommandLine>> subcommands_;
-    std::map<std::string, std::vector<std::string>> optional_words_; ///< by the name of their option
+    /// by the name of an option with an optional word: true if a word is the option's
+    std::map<std::string, std::function<bool(const std::string&)>> accepts_word_;
     std::function<std::string()> fault_;
     std::function<void()> action_;
 };

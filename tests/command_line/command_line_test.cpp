@@ -138,6 +138,43 @@ TEST(CommandLine, optionalWordsAreThoseOfTheOptionAlone)
     EXPECT_THAT(getFault(command_line, {"--light=dim"}), HasSubstr("dim"));
 }
 
+TEST(CommandLine, optionalNumbersAreFollowedByOtherWords)
+{
+    struct Row
+    {
+        Words words;
+        std::optional<uint32_t> number;
+        size_t count;
+        std::string file;
+    };
+    for (const Row& row : {Row{{"extract", "a.pack"}, std::nullopt, 0, "a.pack"},
+                           Row{{"extract", "--probe", "a.pack"}, std::nullopt, 1, "a.pack"},
+                           Row{{"extract", "a.pack", "--probe"}, std::nullopt, 1, "a.pack"},
+                           Row{{"extract", "--probe=all", "a.pack"}, std::nullopt, 1, "a.pack"},
+                           Row{{"extract", "--probe", "0", "a.pack"}, 0, 1, "a.pack"},
+                           Row{{"extract", "--probe=12", "a.pack"}, 12, 1, "a.pack"},
+                           Row{{"extract", "--probe", "--", "7"}, std::nullopt, 1, "7"}})
+    {
+        CommandLine command_line("Test");
+        CommandLine& verb = command_line.addSubcommand("extract", "");
+        std::optional<uint32_t> number;
+        std::string file;
+        const Option option = verb.addOptionalNumber("--probe", number, "all", "");
+        verb.addOption("FILE", file, "");
+        EXPECT_EQ(getFault(command_line, row.words), "");
+        EXPECT_EQ(number, row.number);
+        EXPECT_EQ(option.count(), row.count);
+        EXPECT_EQ(file, row.file);
+    }
+    for (const std::string word : {"--probe=first", "--probe=-1", "--probe=1.5", "--probe=4294967296"})
+    {
+        CommandLine command_line("Test");
+        std::optional<uint32_t> number;
+        command_line.addOptionalNumber("--probe", number, "all", "");
+        EXPECT_THAT(getFault(command_line, {word}), HasSubstr("is not a whole number"));
+    }
+}
+
 TEST(CommandLine, flagsMayHaveAValueOrNoVariable)
 {
     CommandLine command_line("Test");

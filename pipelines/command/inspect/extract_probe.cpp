@@ -27,9 +27,10 @@ double weighTexel(uint32_t side, size_t texel)
     return std::pow(1 + a * a + b * b, -1.5);
 }
 
-std::string makeTable(const light_pictures::ProbeMips& probe)
+/// Return a line of the table for each mip.
+std::string listMips(uint32_t index, const light_pictures::ProbeMips& probe)
 {
-    std::string text = "mip,side,roughness,mean_r,mean_g,mean_b,least,greatest\n";
+    std::string text;
     for (size_t mip = 0; mip < probe.mips.size(); ++mip)
     {
         const std::vector<Float3>& texels = probe.mips[mip];
@@ -46,32 +47,45 @@ std::string makeTable(const light_pictures::ProbeMips& probe)
                 greatest = std::max(greatest, texels[i][c]);
             }
         }
-        text += fmt::format("{},{},{:.6g},{:.7g},{:.7g},{:.7g},{:.7g},{:.7g}\n", mip, probe.side(mip),
-                            probe.roughness(mip), sum[0] / weights, sum[1] / weights, sum[2] / weights, least,
-                            greatest);
+        text += fmt::format("{},{},{},{:.6g},{:.7g},{:.7g},{:.7g},{:.7g},{:.7g}\n", index, mip,
+                            probe.side(mip), probe.roughness(mip), sum[0] / weights, sum[1] / weights,
+                            sum[2] / weights, least, greatest);
     }
     return text;
 }
 
 } // namespace
 
-Status extractProbe(const std::string& path, uint32_t index, const std::string& output)
+Status extractProbe(const std::string& path, std::optional<uint32_t> index, const std::string& output)
 {
     HEARTH_ASSIGN_OR_RETURN(const PackView file, openContainer(path));
     HEARTH_TRY(checkProbes(file)); // openContainer does not check these chunks of a part
-    if (file.probes().empty())
+    const auto count = static_cast<uint32_t>(file.probes().size());
+    if (count == 0)
         return Error{Issue::chunk_missing, path, chunkName(kChunkProbes, 0), "the file has no light probe"};
-    if (index >= file.probes().size())
-        return Error{
-            Issue::usage, path, "",
-            fmt::format("there is no probe {}: the last one is {}", index, file.probes().size() - 1)};
-    const light_pictures::ProbeMips probe = light_pictures::decodeMips(file, file.probes()[index]);
+    if (index && *index >= count)
+        return Error{Issue::usage, path, "",
+                     fmt::format("there is no probe {}: the last one is {}", *index, count - 1)};
+    const uint32_t first = index.value_or(0), end = index ? first + 1 : count;
+    const auto decode = [&file](uint32_t probe)
+    { return light_pictures::decodeMips(file, file.probes()[probe]); };
     if (light_pictures::isPictureName(output))
-        return light_pictures::writePicture(output, light_pictures::drawProbe(probe), std::numbers::pi);
+    {
+        if (end - first > 1)
+            return Error{
+                Issue::usage, path, "",
+                fmt::format("a picture shows one of the {} probes: add its index to --probe, 0 to {}", count,
+                            count - 1)};
+        return light_pictures::writePicture(output, light_pictures::drawProbe(decode(first)),
+                                            std::numbers::pi);
+    }
     if (!output.ends_with(".csv"))
-        return Error{Issue::usage, output, "", "a probe is written as .csv, .exr or .png"};
+        return Error{Issue::usage, output, "", "probes are written as .csv, one also as .exr or .png"};
+    std::string table = "probe,mip,side,roughness,mean_r,mean_g,mean_b,least,greatest\n";
+    for (uint32_t probe = first; probe < end; ++probe)
+        table += listMips(probe, decode(probe));
     HEARTH_ASSIGN_OR_RETURN(AtomicFile out, AtomicFile::create(output));
-    out.write(makeTable(probe));
+    out.write(table);
     return out.finish();
 }
 

@@ -28,7 +28,7 @@ void addExtract(cli::CommandLine& app, VerbAction& run)
         std::string animation;
         double time = 0;
         TextureExtraction texture;
-        uint32_t probe = 0;
+        std::optional<uint32_t> probe;
         std::string texel_format;
         std::string output;
     };
@@ -50,9 +50,9 @@ void addExtract(cli::CommandLine& app, VerbAction& run)
             .excludes(mesh)
             .excludes(part);
     const cli::Option probe =
-        verb.addOption("--probe", options->probe,
-                       "instead of a mesh; index of a light probe: .csv means and extremes of its mips, .exr "
-                       "and .png their faces side by side")
+        verb.addOptionalNumber("--probe", options->probe, "all",
+                               "instead of a mesh; all light probes, or the one of an index: .csv means and "
+                               "extremes of their mips, .exr and .png the faces of one side by side")
             .excludes(mesh)
             .excludes(part)
             .excludes(texture);

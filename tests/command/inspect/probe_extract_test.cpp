@@ -30,11 +30,24 @@ class ExtractProbe : public testing::Test
 protected:
     ExtractProbe() { writePackFile(smallPack(), sandbox / "small.hearth"); }
 
-    std::string extract(const std::string& name)
+    std::string extract(const std::string& name, std::optional<uint32_t> index = std::nullopt,
+                        const std::string& pack = "small.hearth")
     {
-        const Status status = command::extractProbe(sandbox / "small.hearth", 0, sandbox / name);
+        const Status status = command::extractProbe(sandbox / pack, index, sandbox / name);
         EXPECT_TRUE(status.ok()) << (status.ok() ? "" : formatMessage(status.error()));
         return sandbox.read(name);
+    }
+
+    /// Write a pack of two probes: that of smallPack(), and one whose faces have the next face's colours.
+    void writeTwoProbes() const
+    {
+        PackModel model = smallPack();
+        const std::vector<uint32_t> first = model.probe_texels;
+        model.probes.push_back(model.probes[0]);
+        model.probes[1].texels.first = static_cast<uint32_t>(first.size());
+        for (size_t i = 0; i < first.size(); ++i)
+            model.probe_texels.push_back(first[(i + 4) % 24]);
+        writePackFile(model, sandbox / "two.hearth");
     }
 
     /// Calls check(x, y, face) for each texel of the picture: of no face it is 6.
@@ -56,7 +69,7 @@ TEST_F(ExtractProbe, listsTheMips)
     std::istringstream lines(extract("probe.csv"));
     std::string line;
     std::getline(lines, line);
-    EXPECT_EQ(line, "mip,side,roughness,mean_r,mean_g,mean_b,least,greatest");
+    EXPECT_EQ(line, "probe,mip,side,roughness,mean_r,mean_g,mean_b,least,greatest");
     double mean[3] = {};
     float least = 1e9f, greatest = 0;
     for (uint32_t face = 0; face < 6; ++face)
@@ -70,21 +83,54 @@ TEST_F(ExtractProbe, listsTheMips)
     {
         std::getline(lines, line);
         std::istringstream numbers(line);
-        double values[8];
+        double values[9];
         for (double& value : values)
         {
             numbers >> value;
             numbers.ignore();
         }
-        EXPECT_EQ(values[0], mip);
-        EXPECT_EQ(values[1], 2 - mip);
-        EXPECT_EQ(values[2], mip) << "roughness 0 and 1";
+        EXPECT_EQ(values[0], 0) << "the only probe";
+        EXPECT_EQ(values[1], mip);
+        EXPECT_EQ(values[2], 2 - mip);
+        EXPECT_EQ(values[3], mip) << "roughness 0 and 1";
         for (size_t c = 0; c < 3; ++c)
-            EXPECT_NEAR(values[3 + c], mean[c], 1e-6) << "faces count the same";
-        EXPECT_NEAR(values[6], least, 1e-6);
-        EXPECT_NEAR(values[7], greatest, 1e-6);
+            EXPECT_NEAR(values[4 + c], mean[c], 1e-6) << "faces count the same";
+        EXPECT_NEAR(values[7], least, 1e-6);
+        EXPECT_NEAR(values[8], greatest, 1e-6);
     }
     EXPECT_FALSE(std::getline(lines, line));
+}
+
+TEST_F(ExtractProbe, listsAllProbesOrTheOneOfAnIndex)
+{
+    writeTwoProbes();
+    std::istringstream lines(extract("all.csv", std::nullopt, "two.hearth"));
+    std::string header, line, of_second;
+    std::getline(lines, header);
+    for (const std::string start : {"0,0,2,", "0,1,1,", "1,0,2,", "1,1,1,"})
+    {
+        ASSERT_TRUE(std::getline(lines, line));
+        EXPECT_TRUE(line.starts_with(start)) << line;
+        of_second += start[0] == '1' ? line + '\n' : "";
+    }
+    EXPECT_FALSE(std::getline(lines, line));
+    EXPECT_EQ(extract("second.csv", 1, "two.hearth"), header + '\n' + of_second);
+}
+
+TEST_F(ExtractProbe, picturesShowOneProbe)
+{
+    writeTwoProbes();
+    EXPECT_EQ(extract("first.exr", 0, "two.hearth"), extract("only.exr"));
+    EXPECT_NE(extract("second.exr", 1, "two.hearth"), extract("only.exr"));
+    for (const std::string name : {"all.exr", "all.png"})
+    {
+        const Status status = command::extractProbe(sandbox / "two.hearth", std::nullopt, sandbox / name);
+        ASSERT_FALSE(status.ok());
+        EXPECT_EQ(status.error().issue, Issue::usage);
+        EXPECT_NE(status.error().detail.find("one of the 2 probes"), std::string::npos);
+        EXPECT_NE(status.error().detail.find("0 to 1"), std::string::npos) << status.error().detail;
+        EXPECT_FALSE(sandbox.has(name));
+    }
 }
 
 TEST_F(ExtractProbe, writesTheTexelsAsExr)
@@ -125,8 +171,8 @@ TEST_F(ExtractProbe, writesAPictureAsPng)
 
 TEST_F(ExtractProbe, refusesOtherFiles)
 {
-    const auto expectIssue =
-        [&](const std::string& input, const std::string& output, Issue issue, uint32_t index = 0)
+    const auto expectIssue = [&](const std::string& input, const std::string& output, Issue issue,
+                                 std::optional<uint32_t> index = std::nullopt)
     {
         const Status status = command::extractProbe(sandbox / input, index, sandbox / output);
         ASSERT_FALSE(status.ok());
