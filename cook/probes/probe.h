@@ -17,6 +17,9 @@ inline constexpr uint32_t kProbeSide = 128;
 /// Mips of a probe: the last of kProbeSide has 4 x 4 texels a face.
 inline constexpr uint32_t kProbeMips = 6;
 
+/// Largest side of the sky that the camera sees, where nothing else is set.
+inline constexpr uint32_t kMaxSkySide = 512;
+
 struct Probe
 {
     formats::ProbeRecord record{}; ///< its texels are those below

@@ -39,6 +39,10 @@ std::vector<Setting> makeImportSettings()
          "files from the source's folder that are its levels of detail 1, 2, ..., made by hand; []: none, "
          "and no name makes the source a level",
          "the files X_LOD1, X_LOD2, ... beside an X_LOD0"},
+        choiceSetting("import.sky",
+                      "on: the image-based light of a scene is the sky of the pack, unless environment.file "
+                      "names one",
+                      "on", {"on", "off"}),
         withSaving(
             "0 takes the keys of clips as they are",
             numberSetting("animation.error",
@@ -55,20 +59,27 @@ Result<Arguments> makeImportArguments(const Values& values)
     addOption(values, "import.up", "--up", arguments);
     addOption(values, kImportLayer, "--layer", arguments);
     addOption(values, "import.icc", "--icc", arguments);
+    addOption(values, "import.sky", "--sky", arguments);
     addAssignments(values, "animation", arguments);
     return arguments;
 }
 
-/// Meshes get UVs for the light that the pack bakes into texels.
+/// Meshes get UVs for the light that the pack bakes into texels, and skies of scenes the size of the pack's.
 std::vector<std::string> makeImportWordsOfPack(const Values& values)
 {
-    if (!isEnabled(*findCooker("receivers"), values, {}))
-        return {};
-    constexpr std::string_view kDensity = "receivers.texels_per_metre";
-    const Value* const density = findValue(values, kDensity);
-    return {"--receivers", density != nullptr
-                               ? density->text
-                               : std::string(findSetting(profileSettings(), kDensity)->default_text)};
+    std::vector<std::string> words;
+    if (isEnabled(*findCooker("receivers"), values, {}))
+    {
+        constexpr std::string_view kDensity = "receivers.texels_per_metre";
+        const Value* const density = findValue(values, kDensity);
+        words = {"--receivers", density != nullptr
+                                    ? density->text
+                                    : std::string(findSetting(profileSettings(), kDensity)->default_text)};
+    }
+    const Value* const sky_size = findValue(values, "environment.sky_size");
+    if (sky_size != nullptr && !isEnabled(*findCooker("probe"), values, {}))
+        words.insert(words.end(), {"--sky-size", sky_size->text});
+    return words;
 }
 
 } // namespace

@@ -17,7 +17,7 @@ struct Arguments
     std::string environment;
     std::string output;
     uint32_t face_size = probes::kProbeSide;
-    uint32_t max_sky_size = 512;
+    uint32_t max_sky_size = probes::kMaxSkySide;
     size_t jobs = 0;
 };
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/animation_compression/clip_settings.h"
 #include "cook/command_line/command_line.h"
+#include "cook/probes/probe.h"
 #include "cook/tools/batch.h"
 #include "cook/tools/child_processes.h"
 #include "cook/tools/dependency_list.h"
@@ -38,6 +39,8 @@ struct Arguments
     std::string up = "y";
     std::string layer;
     std::string icc = "ignore";
+    std::string sky = "on";
+    uint32_t max_sky_size = probes::kMaxSkySide;
 };
 
 constexpr double kRadiansPerDegree = 3.14159265358979323846 / 180;
@@ -61,6 +64,7 @@ Status readAll(const Arguments& arguments, std::span<const tools::LodFile> lods,
     if (!arguments.depfile.empty())
         options.reads = &reads;
     import::ImagesProgram images(tools::programFolder() + "/hearth-images");
+    options.takes_sky = arguments.sky == "on";
     options.artist = {&images, arguments.layer, arguments.icc == "convert"};
     HEARTH_TRY(import::readSource(arguments.source, options, part));
     if (lods.empty())
@@ -84,6 +88,7 @@ Status finish(const Arguments& arguments, const animation_compression::StatedErr
     HEARTH_TRY(import::convertToMetres(
         {arguments.scale, arguments.up == "z" ? import::UpAxis::z : import::UpAxis::y}, part));
     import::compressClips(part, stated_error);
+    HEARTH_TRY(import::writeSky(part, arguments.max_sky_size));
     HEARTH_TRY(part.finish());
     return arguments.statistics.empty() ? success()
                                         : writeText(arguments.statistics, part.statistics() + "\n");
@@ -138,6 +143,13 @@ int program(int argc, char** argv)
            "colours of TIFF, PSD and JPEG 2000 with an ICC profile: convert them to sRGB, or take them "
            "for sRGB; glTF asks for the latter")
         .choices({"convert", "ignore"})
+        .showDefault();
+    app.addOption("--sky", arguments.sky, "take the image-based light of the scene for the sky of the pack")
+        .choices({"on", "off"})
+        .showDefault();
+    app.addOption("--sky-size", arguments.max_sky_size,
+                  "largest edge of that sky as the camera sees it, which is no finer than its images")
+        .range(1u, 4096u, "N")
         .showDefault();
     const cli::Option profile =
         app.addOption("--profile", arguments.profile, "TOML file: the error that clips may have");

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/link/link.h"
 
+#include "cook/tools/source_name.h"
+#include "cook/tools/source_sky.h"
 #include "formats/container/container_writer.h"
 #include "formats/pack/image_data.h"
 #include "formats/pack/instance_meshes.h"
 #include "formats/pack/pack_check.h"
 #include "formats/pack/part_materials.h"
+#include "formats/scene/sky_image.h"
 #include "pipelines/link/asset_bounds.h"
 #include "pipelines/link/image_table.h"
 #include "pipelines/link/merge_meta.h"
@@ -589,10 +592,20 @@ Status copyTables(ContainerWriter& writer, const std::optional<PackView>& part,
     return success();
 }
 
-/// Read the parts with the pack's light probes.
-Result<ProbeTables> readProbes(std::span<const std::string> paths)
+void addProbes(const PackView& part, ProbeTables& tables)
 {
-    ProbeTables tables;
+    for (ProbeRecord record : part.probes())
+    {
+        record.texels.first += static_cast<uint32_t>(tables.texels.size());
+        tables.records.push_back(record);
+    }
+    tables.texels.insert(tables.texels.end(), part.probeTexels().begin(), part.probeTexels().end());
+}
+
+/// Open the parts with the pack's light probes.
+Result<std::vector<PackView>> openProbes(std::span<const std::string> paths)
+{
+    std::vector<PackView> parts;
     for (const std::string& path : paths)
     {
         HEARTH_ASSIGN_OR_RETURN(PackView part, openPart(path));
@@ -600,22 +613,55 @@ Result<ProbeTables> readProbes(std::span<const std::string> paths)
         if (part.probes().empty())
             return Error{Issue::chunk_missing, path, chunkName(kChunkProbes, 0),
                          "this is not a probe part: it has no probe"};
-        for (ProbeRecord record : part.probes())
-        {
-            record.texels.first += static_cast<uint32_t>(tables.texels.size());
-            tables.records.push_back(record);
-        }
-        tables.texels.insert(tables.texels.end(), part.probeTexels().begin(), part.probeTexels().end());
+        parts.push_back(std::move(part));
     }
+    return parts;
+}
+
+/// Warn of the skies of sources that are not the pack's, since its image of the sky is named.
+void warnOfSkies(std::span<const Source> sources)
+{
+    for (const Source& source : sources)
+        if (shared::findSkyProbe(source.import_part.probes()))
+            std::fprintf(stderr, "%s\n",
+                         formatMessage({Issue::dropped, tools::readSourceName(source.import_part), "",
+                                        "its image-based light is not the sky of the pack: "
+                                        "environment.file names another"})
+                             .c_str());
+}
+
+/// Read the pack's light probes: the sky that a source brings along, unless a part has one, and all of the
+/// parts.
+Result<ProbeTables> readProbes(std::span<const std::string> paths, std::span<const Source> sources)
+{
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<PackView> parts, openProbes(paths));
+    ProbeTables tables;
+    const auto hasSky = [](const PackView& part) { return shared::findSkyProbe(part.probes()).has_value(); };
+    if (std::ranges::any_of(parts, hasSky))
+        warnOfSkies(sources);
+    else
+    {
+        std::vector<const PackView*> import_parts;
+        for (const Source& source : sources)
+            import_parts.push_back(&source.import_part);
+        HEARTH_ASSIGN_OR_RETURN(const PackView* const of_source, tools::findSourceSky(import_parts));
+        if (of_source != nullptr)
+        {
+            HEARTH_TRY(checkProbes(*of_source));
+            addProbes(*of_source, tables);
+        }
+    }
+    for (const PackView& part : parts)
+        addProbes(part, tables);
     return tables;
 }
 
-Result<OpenPackParts> openPackParts(const PackParts& parts)
+Result<OpenPackParts> openPackParts(const PackParts& parts, std::span<const Source> sources)
 {
     OpenPackParts opened;
     HEARTH_ASSIGN_OR_RETURN(opened.specular, readSpecular(parts.specular));
     HEARTH_ASSIGN_OR_RETURN(opened.bricks, openBricks(parts.bricks));
-    HEARTH_ASSIGN_OR_RETURN(opened.probes, readProbes(parts.probes));
+    HEARTH_ASSIGN_OR_RETURN(opened.probes, readProbes(parts.probes, sources));
     HEARTH_ASSIGN_OR_RETURN(opened.receivers, openReceivers(parts.receivers));
     return opened;
 }
@@ -675,7 +721,7 @@ Status linkPack(std::span<const SourceParts> sources, const std::string& output,
         opened.push_back(std::move(source));
     }
     HEARTH_TRY(assignOffsets(opened, output));
-    HEARTH_ASSIGN_OR_RETURN(const OpenPackParts once, openPackParts(pack_parts));
+    HEARTH_ASSIGN_OR_RETURN(const OpenPackParts once, openPackParts(pack_parts, opened));
 
     const std::string unchecked = output + ".unchecked-" + std::to_string(::getpid());
     Status status = writePack(unchecked, opened, once, skipped, texture_budget);

@@ -26,9 +26,10 @@ struct PackParts
     /// Parts with a table of specular occlusion. A pack has one table: all parts must have the same. May
     /// be empty
     std::vector<std::string> specular{};
-    std::string bricks{};              ///< part whose grid of bricks the pack gets; empty: no bricks
-    std::vector<std::string> probes{}; ///< parts whose light probes the pack gets, in order
-    std::string receivers{};           ///< part whose receivers the pack gets; empty: no receivers
+    std::string bricks{}; ///< part whose grid of bricks the pack gets; empty: no bricks
+    /// Parts whose light probes the pack gets, in order. A source's sky comes before them, if none has one
+    std::vector<std::string> probes{};
+    std::string receivers{}; ///< part whose receivers the pack gets; empty: no receivers
 };
 
 /// Write the pack of all sources, their scenes side by side: the records of each source follow the
@@ -38,9 +39,9 @@ struct PackParts
 /// skipped         JSON objects for META, one for each error of a source that the pack lacks
 /// texture_budget  bytes that all textures may take on the GPU, for META; 0: no budget The pack is
 /// checked as a whole before it appears under `output`; on an error nothing appears.
-/// errors: those of reading the parts and of mergeMeta; meaning_reference where parts do not belong
-/// together, or tables differ; input_too_large where the tables grow past 32-bit indices; cannot_write;
-/// those of checkPack.
+/// errors: those of reading the parts, of mergeMeta and of tools::findSourceSky; meaning_reference where
+/// parts do not belong together, or tables differ; input_too_large where the tables grow past 32-bit indices;
+/// cannot_write; those of checkPack.
 Status linkPack(std::span<const SourceParts> sources, const std::string& output,
                 const PackParts& pack_parts = {}, std::span<const std::string> skipped = {},
                 uint64_t texture_budget = 0);

@@ -93,8 +93,7 @@ const std::vector<Layer>& layers()
         {"cook/bricks/voxels", {"formats", "cook/json", "cook/tools", "cook/bricks/grid"}},
         {"cook/bricks/light",
          {"formats", "cook/bricks/grid", "cook/bricks/voxels", "cook/sampling", "cook/ray_scene"}},
-        {"cook/bricks/program",
-         {"formats", "cook/command_line", "cook/tools", "cook/bricks/voxels", "cook/bricks/light"}},
+        {"cook/bricks/program", {"formats", "cook/command_line", "cook/bricks/voxels", "cook/bricks/light"}},
 
         {"cook/receivers/bake", {"formats", "cook/sampling", "cook/ray_scene"}},
         {"cook/receivers/unwrap", {"formats", "cook/mesh", "cook/receivers/bake"}},
@@ -109,8 +108,8 @@ const std::vector<Layer>& layers()
          {"formats", "cook/environment", "cook/sampling", "cook/bricks/voxels", "cook/bricks/light",
           "cook/receivers/bake"}},
         {"cook/reflections/program",
-         {"formats", "cook/command_line", "cook/tools", "cook/probes", "cook/bricks/voxels",
-          "cook/bricks/light", "cook/reflections/place", "cook/reflections/capture"}},
+         {"formats", "cook/command_line", "cook/probes", "cook/bricks/voxels", "cook/bricks/light",
+          "cook/reflections/place", "cook/reflections/capture"}},
 
         {"cook/visibility/mesh", {"formats", "cook/mesh"}},
         {"cook/visibility/rays", {"formats", "cook/sampling", "cook/visibility/mesh"}},
@@ -126,7 +125,8 @@ const std::vector<Layer>& layers()
         // from sources to parts
         {"pipelines/import/part",
          {"formats", "cook/json", "cook/tools", "cook/mesh", "cook/animation_bounds",
-          "cook/animation_compression", "cook/receivers/bake", "cook/receivers/unwrap"}},
+          "cook/animation_compression", "cook/environment", "cook/probes", "cook/receivers/bake",
+          "cook/receivers/unwrap"}},
         {"pipelines/images", {"formats"}},
         {"pipelines/import/images", {"formats", "pipelines/images", "pipelines/import/part"}},
         {"pipelines/import/source", {"formats", "cook/tools", "pipelines/import/images"}},
@@ -138,16 +138,16 @@ const std::vector<Layer>& layers()
         {"pipelines/import/scans",
          {"formats", "pipelines/import/part", "pipelines/import/images", "pipelines/import/source"}},
         {"pipelines/import",
-         {"formats", "cook/command_line", "cook/tools", "cook/animation_compression", "pipelines/import/part",
-          "pipelines/import/images", "pipelines/import/source", "pipelines/import/gltf",
-          "pipelines/import/scans"}},
+         {"formats", "cook/command_line", "cook/tools", "cook/animation_compression", "cook/probes",
+          "pipelines/import/part", "pipelines/import/images", "pipelines/import/source",
+          "pipelines/import/gltf", "pipelines/import/scans"}},
 
         {"pipelines/environments",
          {"formats", "cook/command_line", "cook/environment", "cook/probes", "pipelines/import/images"}},
 
         // from parts to a pack, and the build graph
         {"pipelines/verify", {"formats", "cook/json"}},
-        {"pipelines/link", {"formats", "cook/command_line", "cook/json", "pipelines/verify"}},
+        {"pipelines/link", {"formats", "cook/command_line", "cook/json", "cook/tools", "pipelines/verify"}},
         {"pipelines/texture_files", {"formats"}},
         {"pipelines/light_pictures", {"formats", "pipelines/texture_files"}},
         {"pipelines/schemas", {}},

@@ -111,6 +111,24 @@ TEST(CookGraph, readsTheFileOfASetting)
     EXPECT_EQ(makeCookGraph(settings)->actions.size(), graph.actions.size() - 1);
 }
 
+TEST(CookGraph, skiesOfSourcesHaveTheSizeOfThePacks)
+{
+    CookSettings settings;
+    settings.sources = {"a.glb"};
+    settings.output = "out.hearth";
+    settings.values_of_pack = {{"environment.sky_size", {"1024", ""}}};
+    settings.values_of_source.assign(1, {{"import.sky", {"\"on\"", ""}}});
+    EXPECT_EQ(getCommands(makeCookGraph(settings).value()).front(),
+              (Words{"bin/hearth-import", "a.glb", "--sky-size", "1024", "-o", "{import.part}", "--sky", "on",
+                     "--stats", "{import.json}"}));
+    settings.values_of_pack["environment.file"].text = "\"noon.hdr\"";
+    settings.values_of_source[0]["import.sky"].text = "\"off\"";
+    EXPECT_EQ(getCommands(makeCookGraph(settings).value()).front(),
+              (Words{"bin/hearth-import", "a.glb", "-o", "{import.part}", "--sky", "off", "--stats",
+                     "{import.json}"}))
+        << "an image of the sky imports no source again";
+}
+
 TEST(CookGraph, lightsBricksByTheProbeOfTheSky)
 {
     CookSettings settings;

@@ -76,6 +76,7 @@ Imported importBytes(std::string_view bytes, const TemporaryFolder* folder, cons
     result.status = importGltf(path, FileBytes({content.begin(), content.end()}), options, *part);
     result.warnings = part->warnings();
     result.counts = part->counts;
+    result.sky = part->sky;
     if (!result.ok())
         return result;
     EXPECT_TRUE(part->finish().ok());

@@ -42,6 +42,7 @@ struct Imported
     Status status = success();
     std::vector<Error> warnings;
     SourceCounts counts;
+    std::optional<SourceSky> sky;
     std::shared_ptr<TemporaryFolder> folder; ///< keeps the part's folder alive
     std::optional<formats::ContainerReader> part;
 

@@ -235,6 +235,10 @@ TEST_F(Keys, flagsAddTheirCookers)
     EXPECT_EQ(changed(before, keys(other)), kOfSource) << "import makes UVs for them";
     other = settings;
     other.values_of_pack["environment.file"].text = "\"off\"";
+    std::set<std::string> with_probe = kOfSource;
+    with_probe.insert("probe");
+    EXPECT_EQ(changed(before, keys(other)), with_probe) << "import makes the sky in the size that is set";
+    other.values_of_pack.erase("environment.sky_size");
     EXPECT_EQ(changed(before, keys(other)),
               (std::set<std::string>{"probe", "bricks", "receivers", "reflections", "link"}));
     other = settings;

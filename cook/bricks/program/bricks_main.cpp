@@ -6,10 +6,10 @@
 #include "cook/bricks/light/reflectors.h"
 #include "cook/bricks/light/scene_light.h"
 #include "cook/bricks/light/settled_light.h"
+#include "cook/bricks/voxels/scene_sky.h"
 #include "cook/bricks/voxels/source_parts.h"
 #include "cook/command_line/command_line.h"
 #include "cook/command_line/thread_limit.h"
-#include "cook/tools/open_part.h"
 #include "formats/base/atomic_file.h"
 #include "formats/base/program.h"
 #include "formats/scene/scene_lighting.h"
@@ -65,18 +65,8 @@ double secondsSince(std::chrono::steady_clock::time_point start)
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Return the lights and the sky of a scene.
-/// probe  part with the probe of the sky; empty: the default sky
-Result<shared::SceneLighting> readSceneLighting(const StaticScene& scene, const std::string& probe)
-{
-    if (probe.empty())
-        return makeSceneLighting(scene);
-    HEARTH_ASSIGN_OR_RETURN(const formats::PackView sky, tools::openPart(probe));
-    return makeSceneLighting(scene, {sky.probes(), sky.probeTexels()});
-}
-
 /// Set the emission of the faces, and the light that they have under the scene's own lights.
-Status lightGrid(const StaticScene& scene, const std::string& probe, CookedGrid& grid)
+Status lightGrid(const StaticScene& scene, const SceneSky& sky, CookedGrid& grid)
 {
     auto start = std::chrono::steady_clock::now();
     HEARTH_TRY(traceEmission(scene, grid));
@@ -84,7 +74,7 @@ Status lightGrid(const StaticScene& scene, const std::string& probe, CookedGrid&
     start = std::chrono::steady_clock::now();
     HEARTH_ASSIGN_OR_RETURN(grid.tables.reflectors,
                             findReflectors(scene, grid.statistics.frame, grid.statistics.error));
-    HEARTH_ASSIGN_OR_RETURN(shared::SceneLighting lighting, readSceneLighting(scene, probe));
+    shared::SceneLighting lighting = makeSceneLighting(scene, sky.probes());
     shared::addReflectors(lighting, grid.tables.reflectors);
     SettledLight light = settleLight(makeBrickView(grid.tables), lighting);
     grid.tables.lighting = std::move(light.codes);
@@ -104,6 +94,7 @@ Status cook(const Arguments& arguments)
 {
     HEARTH_ASSIGN_OR_RETURN(const std::vector<SourceParts> sources, openSources(arguments.inputs));
     HEARTH_ASSIGN_OR_RETURN(const StaticScene scene, collectStaticScene(sources));
+    HEARTH_ASSIGN_OR_RETURN(const SceneSky sky, SceneSky::open(scene, arguments.probe));
     if (arguments.only_if_needed)
     {
         HEARTH_ASSIGN_OR_RETURN(const std::string reason, findReasonForNoBricks(scene, arguments.settings));
@@ -111,7 +102,7 @@ Status cook(const Arguments& arguments)
             return cookNoGrid(arguments, reason);
     }
     HEARTH_ASSIGN_OR_RETURN(CookedGrid grid, cookGrid(scene, arguments.settings));
-    HEARTH_TRY(lightGrid(scene, arguments.probe, grid));
+    HEARTH_TRY(lightGrid(scene, sky, grid));
     HEARTH_TRY(writeGridPart(arguments.output, grid));
     warn(grid.statistics, arguments.output);
     if (arguments.statistics.empty())
@@ -196,7 +187,8 @@ void addOptions(cli::CommandLine& app, Arguments& arguments)
         app.addOption("--stats", arguments.statistics,
                       "write statistics of the scene as JSON, and print the memory; - is standard output");
     const cli::Option probe = app.addOption(
-        "--probe", arguments.probe, "probe part of the sky that lights the scene; default: the default sky");
+        "--probe", arguments.probe,
+        "probe part of the sky that lights the scene; else that of a source, or the default sky");
     const cli::Option jobs =
         app.addOption("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
     cli::Option march = app.addOption(

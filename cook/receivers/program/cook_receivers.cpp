@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/receivers/program/cook_receivers.h"
 
-#include "cook/json/json.h"
 #include "cook/receivers/scene/receiver_scene.h"
+#include "cook/tools/source_name.h"
 #include "formats/base/index.h"
 
 #include <map>
@@ -99,15 +99,6 @@ Atlas makeAtlas(const LampTable& lamps, std::span<const ReceiverRectRecord> rect
     return packAtlas({baked.width, baked.height, lamps.records, rects, valid, light}, options);
 }
 
-/// Name of the file of a source, as its import part has it.
-std::string readSourceName(const bricks::SourceParts& source)
-{
-    const Json meta = Json::parse(source.scene.meta()).value_or(Json());
-    const Json* const sources = meta.is_object() ? meta.find("sources") : nullptr;
-    const bool has_one = sources != nullptr && sources->is_array() && !sources->empty();
-    return has_one && (*sources)[0].is_object() ? (*sources)[0].value("name", std::string()) : "";
-}
-
 void countUnusable(const UvCheck& check, bool has_triangles, bool has_uvs, InstancesWithoutUvs& counts)
 {
     if (!has_triangles)
@@ -142,7 +133,7 @@ void listUnusable(const bricks::StaticScene& scene, const ReceiverScene& receive
         const uint32_t source = scene.instances[i].source, mesh = scene.instances[i].mesh;
         const bricks::SourceParts& parts = scene.sources[source];
         meshes.try_emplace({source, mesh},
-                           UnusableMesh{readSourceName(parts),
+                           UnusableMesh{tools::readSourceName(parts.scene),
                                         std::string(parts.clusters.text(parts.clusters.meshes()[mesh].name)),
                                         has_uvs ? describe(rectangle.uvs) : "it has no UVs"});
     }

@@ -1,9 +1,9 @@
 // hearth-receivers: cooks the receivers of one or more sources, baked light whose lamps keep their weights.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/bricks/voxels/scene_sky.h"
 #include "cook/command_line/command_line.h"
 #include "cook/command_line/thread_limit.h"
 #include "cook/receivers/program/atlas_part.h"
-#include "cook/tools/open_part.h"
 #include "formats/base/atomic_file.h"
 #include "formats/base/program.h"
 
@@ -36,24 +36,14 @@ void warn(const CookedReceivers& cooked, const std::string& output)
     }
 }
 
-/// Cook the scene under the sky of a probe.
-/// probe  part with it; empty: the default sky
-Result<CookedReceivers> cookUnderSky(const bricks::StaticScene& scene, const std::string& probe,
-                                     const CookSettings& settings)
-{
-    if (probe.empty())
-        return cookReceivers(scene, {}, settings);
-    HEARTH_ASSIGN_OR_RETURN(const formats::PackView sky, tools::openPart(probe));
-    return cookReceivers(scene, {sky.probes(), sky.probeTexels()}, settings);
-}
-
 Status cook(const Arguments& arguments)
 {
     HEARTH_ASSIGN_OR_RETURN(const std::vector<bricks::SourceParts> sources,
                             bricks::openSources(arguments.inputs));
     HEARTH_ASSIGN_OR_RETURN(const bricks::StaticScene scene, bricks::collectStaticScene(sources));
+    HEARTH_ASSIGN_OR_RETURN(const bricks::SceneSky sky, bricks::SceneSky::open(scene, arguments.probe));
     HEARTH_ASSIGN_OR_RETURN(const CookedReceivers cooked,
-                            cookUnderSky(scene, arguments.probe, arguments.settings));
+                            cookReceivers(scene, sky.probes(), arguments.settings));
     HEARTH_TRY(writeReceiversPart(arguments.output, cooked, arguments.settings));
     warn(cooked, arguments.output);
     return arguments.statistics.empty()
@@ -89,7 +79,7 @@ void addOptions(cli::CommandLine& app, Arguments& arguments)
         .range(0u, kMaxBounces, "N")
         .showDefault();
     app.addOption("--probe", arguments.probe,
-                  "probe part of the sky that lights the scene; default: the default sky");
+                  "probe part of the sky that lights the scene; else that of a source, or the default sky");
     app.addOption("--stats", arguments.statistics, "write statistics as JSON; - is standard output");
     app.addOption("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
     app.setCheck(

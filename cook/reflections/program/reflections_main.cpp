@@ -1,13 +1,13 @@
 // hearth-reflections: cooks light probes within the scene of one or more sources.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/light/scene_light.h"
+#include "cook/bricks/voxels/scene_sky.h"
 #include "cook/bricks/voxels/source_parts.h"
 #include "cook/command_line/command_line.h"
 #include "cook/command_line/thread_limit.h"
 #include "cook/probes/probe.h"
 #include "cook/reflections/capture/capture.h"
 #include "cook/reflections/place/probe_place.h"
-#include "cook/tools/open_part.h"
 #include "formats/base/program.h"
 #include "formats/container/container_writer.h"
 #include "formats/scene/sky_image.h"
@@ -66,18 +66,13 @@ environment::Environment decodeSky(const formats::ProbeRecord& probe, std::span<
 Result<Stage> readStage(const bricks::StaticScene& scene, const std::string& probe)
 {
     HEARTH_ASSIGN_OR_RETURN(Surfaces surfaces, Surfaces::read(scene));
-    Stage stage{std::move(surfaces), {}, {}};
-    if (probe.empty())
+    HEARTH_ASSIGN_OR_RETURN(const bricks::SceneSky sky, bricks::SceneSky::open(scene, probe));
+    const shared::SceneProbes probes = sky.probes();
+    Stage stage{std::move(surfaces), bricks::makeSceneLighting(scene, probes), {}};
+    if (const std::optional<size_t> i = shared::findSkyProbe(probes.records))
     {
-        stage.lighting = bricks::makeSceneLighting(scene);
-        return stage;
-    }
-    HEARTH_ASSIGN_OR_RETURN(const formats::PackView part, tools::openPart(probe));
-    stage.lighting = bricks::makeSceneLighting(scene, {part.probes(), part.probeTexels()});
-    if (const std::optional<size_t> i = shared::findSkyProbe(part.probes()))
-    {
-        const formats::ProbeRecord& record = part.probes()[*i];
-        stage.sky = decodeSky(record, part.probeTexels().subspan(record.texels.first, record.texels.count));
+        const formats::ProbeRecord& record = probes.records[*i];
+        stage.sky = decodeSky(record, probes.texels.subspan(record.texels.first, record.texels.count));
     }
     return stage;
 }

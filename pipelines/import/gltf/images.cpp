@@ -11,6 +11,8 @@
 
 #include <fmt/format.h>
 
+#include <set>
+
 namespace hearth::import
 {
 
@@ -58,7 +60,7 @@ std::string GltfImages::imageName(uint32_t image) const
     return fmt::format("image {}", image);
 }
 
-Result<DecodedImage> GltfImages::read(uint32_t image, const std::string& where)
+Result<DecodedImage> GltfImages::read(uint32_t image, const std::string& where) const
 {
     if (image == kInvalidIndex)
         return context_.error(Issue::input_missing, where, "the texture has no image");
@@ -151,8 +153,12 @@ Result<uint32_t> GltfImages::writeComputed(const DecodedImage& image, ImagePurpo
 
 void GltfImages::reportUnused() const
 {
+    std::set<uint32_t> faces;
+    for (const GltfImageLight& light : model_.image_lights)
+        for (const std::vector<uint32_t>& mip : light.faces_of_mip)
+            faces.insert(mip.begin(), mip.end());
     for (uint32_t image = 0; image < model_.images.size(); ++image)
-        if (!requested_.contains(image))
+        if (!requested_.contains(image) && !faces.contains(image))
             context_.part.warn(
                 Issue::dropped, fmt::format("/images/{}", image),
                 fmt::format("image \"{}\", which no material uses, is not kept", imageName(image)));

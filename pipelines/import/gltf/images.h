@@ -43,12 +43,16 @@ public:
     Result<uint32_t> writeComputed(const DecodedImage& image, ImagePurpose purpose, const std::string& name,
                                    std::optional<float> alpha_cutoff);
 
-    /// Report the images that nothing uses.
+    /// Return the texels. errors: input_missing, those of readUri and decodeImage.
+    Result<DecodedImage> read(uint32_t image, const std::string& where) const;
+
+    /// Return the name of an image in messages.
+    std::string imageName(uint32_t image) const;
+
+    /// Report the images that no material and no image-based light uses.
     void reportUnused() const;
 
 private:
-    Result<DecodedImage> read(uint32_t image, const std::string& where);
-    std::string imageName(uint32_t image) const;
     /// Warn of what the use does not keep, or reads in another way than the file says.
     void warnOfUse(const DecodedImage& image, ImagePurpose purpose, const std::string& where,
                    const std::string& name);

@@ -4,6 +4,7 @@
 
 #include "pipelines/import/gltf/animations.h"
 #include "pipelines/import/gltf/extras.h"
+#include "pipelines/import/gltf/image_light.h"
 #include "pipelines/import/gltf/lods.h"
 #include "pipelines/import/gltf/materials.h"
 #include "pipelines/import/gltf/mesh_writer.h"
@@ -56,6 +57,7 @@ Status importGltf(const std::string& path, const FileBytes& file, const ImportOp
                             writeMeshes(model, uses, lods, meshes, inverse_binds, context));
     context.part.counts.vertices = sourceVertexCount(model);
     HEARTH_TRY(writeMaterials(model, buffers, context));
+    HEARTH_TRY(readSky(model, buffers, context));
     HEARTH_TRY(writeScene(model, uses, summaries, lods.hidden, accessors, context, tally));
     HEARTH_TRY(writeAnimations(model, accessors, context, tally));
     HEARTH_TRY(writeExtras(document, container.json, model, uses, context));

@@ -32,7 +32,7 @@ std::vector<bool> findDrawnNodes(const GltfModel& model, const GltfContext& cont
         drawn.assign(model.nodes.size(), true);
         return drawn;
     }
-    const uint32_t scene = model.scene == kInvalidIndex ? 0 : model.scene;
+    const uint32_t scene = drawnScene(model);
     if (model.scenes.size() > 1)
         context.part.warn(
             Issue::dropped, "/scenes",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/gltf/specular_glossiness.h"
 
+#include "pipelines/import/images/channels.h"
+
 #include "pipelines/import/images/resized_image.h"
 
 #include <algorithm>
@@ -31,11 +33,6 @@ float solveMetallic(float diffuse, float specular, float one_minus_specular_stre
     const float c = kDielectricSpecular - specular;
     const float discriminant = std::max(b * b - 4 * a * c, 0.0f);
     return std::clamp((-b + std::sqrt(discriminant)) / (2 * a), 0.0f, 1.0f);
-}
-
-float linearFromSrgb(float encoded)
-{
-    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
 }
 
 float srgbFromLinear(float linear)

@@ -54,6 +54,11 @@ size_t countChannels(const DecodedImage& image)
 
 } // namespace
 
+float linearFromSrgb(float encoded)
+{
+    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
 DecodedImage dropEmptyBits(DecodedImage image)
 {
     if (image.type != ChannelType::unorm16)

@@ -31,6 +31,9 @@ void dropAlpha(DecodedImage& image);
 /// Images of 8 bits a channel (asserted), not both empty.
 DecodedImage mergeChannels(const DecodedImage& first, const DecodedImage& second, uint32_t first_channels);
 
+/// Return the linear light of a channel of sRGB; both are 1 for white.
+float linearFromSrgb(float encoded);
+
 /// True if no texel has a colour. The image has no floats (asserted).
 bool isGrey(const DecodedImage& image);
 

@@ -49,6 +49,8 @@ struct ImportOptions
     /// Size of the texels of baked light, in the source's unit of length, for which meshes get UVs that have
     /// none; 0: they get none.
     double receiver_texel_size = 0;
+    /// Take the image-based light of a scene for the sky.
+    bool takes_sky = true;
     tools::DependencyList* reads = nullptr; ///< records the files that are read; null: not recorded
 };
 

@@ -318,6 +318,12 @@ Box3 PartBuilder::litBox() const
     return box;
 }
 
+Status PartBuilder::addProbe(const ProbeRecord& probe, std::span<const uint32_t> texels)
+{
+    HEARTH_TRY(writer_.addRecords<ProbeRecord>(kChunkProbes, {&probe, 1}));
+    return writer_.addRecords<uint32_t>(kChunkProbeTexels, texels);
+}
+
 Status PartBuilder::finish()
 {
     HEARTH_TRY(writer_.addText(kChunkMeta, report()));

@@ -8,7 +8,9 @@
 #include "formats/container/container_writer.h"
 #include "formats/records/extras.h"
 #include "formats/records/material_layers.h"
+#include "formats/records/probe.h"
 #include "formats/records/scene.h"
+#include "pipelines/import/part/source_sky.h"
 #include "pipelines/import/part/vertex_bounds.h"
 
 #include <map>
@@ -100,6 +102,9 @@ public:
     /// format only counts if it is one of colours (sRGB).
     Result<uint32_t> addImage(formats::ImageRecord record, const DecodedImage& image);
 
+    /// Write the only probe of the part.
+    Status addProbe(const formats::ProbeRecord& probe, std::span<const uint32_t> texels);
+
     /// Add a warning for the user; the program prints it to stderr and META stores it.
     void warn(Issue issue, std::string where, std::string detail);
     /// Add a warning with a remark, which follows the detail on stderr only. A remark may depend on more than
@@ -141,6 +146,7 @@ public:
     std::vector<animation_compression::ClipStatistics>
         clip_statistics; ///< of compressed animations, for the report
     SourceCounts counts;
+    std::optional<SourceSky> sky; ///< for writeSky
 
     const std::string& sourceName() const { return source_name_; }
     uint32_t imageCount() const { return static_cast<uint32_t>(images_.size()); }

@@ -73,6 +73,8 @@ public:
         HEARTH_TRY(convertLightRanges());
         for (ShadowSphereRecord& sphere : part_.shadow_spheres)
             HEARTH_TRY(convertSphere(sphere));
+        if (part_.sky)
+            part_.sky->world_from_cube = rotation_ * part_.sky->world_from_cube;
         return success();
     }
 

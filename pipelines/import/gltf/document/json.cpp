@@ -217,6 +217,34 @@ std::vector<float> GltfObject::numberList(std::string_view name) const
     return values;
 }
 
+/// Return read(value) of each element of the arrays in an array.
+template <typename Read>
+auto GltfObject::readLists(std::string_view name, Need need, const Read& read) const
+{
+    std::vector<std::vector<std::invoke_result_t<Read, Json>>> lists;
+    const std::optional<Json> array = findArray(name, need);
+    for (size_t i = 0; array && i < array->size(); ++i)
+    {
+        const Json list = (*array)[i];
+        if (!list.isArray())
+            wrongType(list, "an array");
+        lists.emplace_back();
+        for (size_t k = 0; list.isArray() && k < list.size(); ++k)
+            lists.back().push_back(read(list[k]));
+    }
+    return lists;
+}
+
+std::vector<std::vector<uint32_t>> GltfObject::indexLists(std::string_view name, size_t size, Need need) const
+{
+    return readLists(name, need, [&](const Json& value) { return readIndex(value, size); });
+}
+
+std::vector<std::vector<float>> GltfObject::numberLists(std::string_view name, Need need) const
+{
+    return readLists(name, need, [&](const Json& value) { return readNumber(value); });
+}
+
 bool GltfObject::boolean(std::string_view name, bool fallback) const
 {
     const std::optional<Json> value = find(name);

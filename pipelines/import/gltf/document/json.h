@@ -101,6 +101,10 @@ public:
     /// Return an array of numbers of any length; empty if it is absent.
     std::vector<float> numberList(std::string_view name) const;
 
+    /// Return the elements of an array of arrays: of indices below `size`, or of numbers.
+    std::vector<std::vector<uint32_t>> indexLists(std::string_view name, size_t size, Need need) const;
+    std::vector<std::vector<float>> numberLists(std::string_view name, Need need) const;
+
     bool boolean(std::string_view name, bool fallback) const;
     std::string text(std::string_view name, Need need = Need::optional) const;
 
@@ -120,6 +124,8 @@ private:
     std::optional<Json> find(std::string_view name) const { return json_.find(name); }
     std::optional<Json> findRequired(std::string_view name, Need need) const;
     std::optional<Json> findArray(std::string_view name, Need need) const;
+    template <typename Read>
+    auto readLists(std::string_view name, Need need, const Read& read) const;
     std::optional<double> readInteger(const Json& value) const;
     uint32_t readIndex(const Json& value, size_t size) const;
     float readNumber(const Json& value) const;

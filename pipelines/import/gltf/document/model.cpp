@@ -17,6 +17,7 @@ namespace
 
 /// Extensions that Hearth reads, so that a file may require them.
 constexpr std::string_view kSupportedExtensions[] = {
+    "EXT_lights_image_based",
     "EXT_mesh_gpu_instancing",
     "EXT_meshopt_compression",
     "EXT_texture_webp",
@@ -150,6 +151,11 @@ void checkExtensions(const GltfObject& root)
 
 } // namespace
 
+uint32_t drawnScene(const GltfModel& model)
+{
+    return model.scene == kInvalidIndex && !model.scenes.empty() ? 0 : model.scene;
+}
+
 Result<GltfModel> readGltfModel(const JsonDocument& document, const std::string& file, PartBuilder& part)
 {
     GltfProblems problems(file, part);
@@ -170,6 +176,7 @@ Result<GltfModel> readGltfModel(const JsonDocument& document, const std::string&
     readCameras(root, model);
     readLights(root, model);
     readNodes(root, root.objects("skins").size(), model);
+    readImageLights(root, model);
     readScenes(root, model);
     readSkins(root, model);
     readAnimations(root, model);

@@ -266,6 +266,17 @@ struct GltfScene
 {
     std::string name;
     std::vector<uint32_t> nodes;
+    uint32_t image_light = kInvalidIndex;
+};
+
+/// Light of EXT_lights_image_based.
+struct GltfImageLight
+{
+    std::string name;
+    float intensity = 1;
+    std::array<float, 4> rotation{0, 0, 0, 1}; ///< unit
+    uint32_t face_size = 1;
+    std::vector<std::vector<uint32_t>> faces_of_mip; ///< images: +X, -X, +Y, -Y, +Z, -Z of each mip
 };
 
 struct GltfCamera
@@ -343,6 +354,7 @@ struct GltfModel
     uint32_t scene = kInvalidIndex;
     std::vector<GltfCamera> cameras;
     std::vector<GltfLight> lights;
+    std::vector<GltfImageLight> image_lights;
     std::vector<GltfSkin> skins;
     std::vector<GltfAnimation> animations;
 };
@@ -351,6 +363,9 @@ struct GltfModel
 /// errors: gltf_structure, gltf_value, gltf_reference, gltf_version, gltf_extension, gltf_extension_value,
 /// gltf_hierarchy, gltf_bounds, number_too_large.
 Result<GltfModel> readGltfModel(const JsonDocument& document, const std::string& file, PartBuilder& part);
+
+/// Return the scene that is drawn; kInvalidIndex: all nodes are.
+uint32_t drawnScene(const GltfModel& model);
 
 /// Return the number of components of an element: 1, 2, 3, 4, 4, 9, 16.
 uint32_t componentCount(ElementType type);

@@ -21,6 +21,7 @@ void readMeshes(const GltfObject& root, GltfModel& model);
 void readCameras(const GltfObject& root, GltfModel& model);
 void readLights(const GltfObject& root, GltfModel& model);
 void readNodes(const GltfObject& root, size_t skin_count, GltfModel& model);
+void readImageLights(const GltfObject& root, GltfModel& model);
 void readScenes(const GltfObject& root, GltfModel& model);
 
 void readSkins(const GltfObject& root, GltfModel& model);

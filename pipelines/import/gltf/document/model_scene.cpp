@@ -310,7 +310,12 @@ void readNodes(const GltfObject& root, size_t skin_count, GltfModel& model)
 void readScenes(const GltfObject& root, GltfModel& model)
 {
     for (const GltfObject& object : root.objects("scenes"))
-        model.scenes.push_back({object.text("name"), object.indices("nodes", model.nodes.size())});
+    {
+        GltfScene scene{object.text("name"), object.indices("nodes", model.nodes.size())};
+        if (const auto light = object.extension("EXT_lights_image_based"))
+            scene.image_light = light->index("light", model.image_lights.size(), Need::required);
+        model.scenes.push_back(std::move(scene));
+    }
     model.scene = root.index("scene", model.scenes.size());
 }
 
