@@ -121,8 +121,8 @@ public:
                              const std::vector<std::string>& words, const std::string& bare,
                              const std::string& description);
 
-    /// Add an option with an optional number, as "--probe", "--probe 2" or "--probe=2". Without a number, or
-    /// with the word `bare`, the variable is unchanged.
+    /// Add an option with an optional number, as "--probe", "--probe 2" or "--probe=2". Without a
+    /// number, or with the word `bare`, the variable is unchanged.
     Option addOptionalNumber(const std::string& names, std::optional<uint32_t>& value,
                              const std::string& bare, const std::string& description);
 

@@ -9,8 +9,8 @@
 namespace hearth::tools
 {
 
-/// Return the import part whose probe is the sky of the pack; null if none has one. Sources that bring the
-/// same sky agree.
+/// Return the import part whose probe is the sky of the pack; null if none has one. Sources that bring
+/// the same sky agree.
 /// errors: profile_value if two of them differ
 Result<const formats::PackView*> findSourceSky(std::span<const formats::PackView* const> import_parts);
 

@@ -64,7 +64,7 @@ Result<Arguments> makeImportArguments(const Values& values)
     return arguments;
 }
 
-/// Meshes get UVs for the light that the pack bakes into texels, and skies of scenes the size of the pack's.
+/// Meshes get UVs for the light that the pack bakes into texels, and the sky gets the pack's size.
 std::vector<std::string> makeImportWordsOfPack(const Values& values)
 {
     std::vector<std::string> words;

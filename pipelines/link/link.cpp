@@ -630,8 +630,8 @@ void warnOfSkies(std::span<const Source> sources)
                              .c_str());
 }
 
-/// Read the pack's light probes: the sky that a source brings along, unless a part has one, and all of the
-/// parts.
+/// Read the pack's light probes: the sky that a source brings along, unless a part has one, and all of
+/// the parts.
 Result<ProbeTables> readProbes(std::span<const std::string> paths, std::span<const Source> sources)
 {
     HEARTH_ASSIGN_OR_RETURN(const std::vector<PackView> parts, openProbes(paths));

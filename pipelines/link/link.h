@@ -27,7 +27,7 @@ struct PackParts
     /// be empty
     std::vector<std::string> specular{};
     std::string bricks{}; ///< part whose grid of bricks the pack gets; empty: no bricks
-    /// Parts whose light probes the pack gets, in order. A source's sky comes before them, if none has one
+    /// Parts whose light probes the pack gets, in order, behind a source's sky where none has one
     std::vector<std::string> probes{};
     std::string receivers{}; ///< part whose receivers the pack gets; empty: no receivers
 };
@@ -39,9 +39,9 @@ struct PackParts
 /// skipped         JSON objects for META, one for each error of a source that the pack lacks
 /// texture_budget  bytes that all textures may take on the GPU, for META; 0: no budget The pack is
 /// checked as a whole before it appears under `output`; on an error nothing appears.
-/// errors: those of reading the parts, of mergeMeta and of tools::findSourceSky; meaning_reference where
-/// parts do not belong together, or tables differ; input_too_large where the tables grow past 32-bit indices;
-/// cannot_write; those of checkPack.
+/// errors: those of reading the parts, of mergeMeta and of tools::findSourceSky; meaning_reference
+/// where parts do not belong together, or tables differ; input_too_large where the tables grow past
+/// 32-bit indices; cannot_write; those of checkPack.
 Status linkPack(std::span<const SourceParts> sources, const std::string& output,
                 const PackParts& pack_parts = {}, std::span<const std::string> skipped = {},
                 uint64_t texture_budget = 0);

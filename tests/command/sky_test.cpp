@@ -1,9 +1,10 @@
-// Tests the sky of a pack with the real cookers: of `hearth cook --sky`, and of a source's image-based light.
+// Tests the sky of a pack with the real cookers: that of --sky, and a source's image-based light.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/environment/environment.h"
 #include "cook/json/json.h"
 #include "formats/pack/pack_view.h"
 #include "formats/texels/shared_exponent.h"
+#include "tests/command/sky_source.h"
 #include "tests/pipelines_scans/ktx2_builder.h"
 #include "tests/support/sandbox.h"
 #include "tests/support/small_sources.h"
@@ -13,7 +14,6 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <functional>
 #include <map>
 
 namespace hearth::test
@@ -23,9 +23,6 @@ namespace
 {
 
 using testing::HasSubstr;
-using Sky = std::function<Double3(Double3 direction)>; ///< radiance by direction
-
-constexpr uint32_t kSide = 16; ///< of faces
 
 /// Radiance from 0.6 to 4.2 that tells all directions apart.
 Double3 brightSky(Double3 d)
@@ -34,80 +31,22 @@ Double3 brightSky(Double3 d)
     return Double3{2 + 1.4 * d.x, 2.4 + 1.8 * d.y, 2 + 1.3 * d.z};
 }
 
-uint8_t encodeSrgb(double linear)
-{
-    const double code = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-    return static_cast<uint8_t>(std::lround(255 * code));
-}
-
-/// Return the picture that a camera takes of a sky, in RGBD, as a TGA.
-std::string photograph(const Sky& sky, Double3 forward, Double3 up)
-{
-    std::string bytes("\0\0\2\0\0\0\0\0\0\0\0\0", 12);
-    bytes += {static_cast<char>(kSide), 0, static_cast<char>(kSide), 0, 32, 0x28};
-    const Double3 right = cross(forward, up);
-    for (uint32_t y = 0; y < kSide; ++y)
-        for (uint32_t x = 0; x < kSide; ++x)
-        {
-            const Double3 color =
-                sky(forward + right * ((2 * x + 1.0) / kSide - 1) + up * (1 - (2 * y + 1.0) / kSide));
-            const double d = std::floor(std::min(1.0, 1 / std::max({color.x, color.y, color.z})) * 255) / 255;
-            for (const double channel : {color.z, color.y, color.x})
-                bytes += static_cast<char>(encodeSrgb(channel * d));
-            bytes += static_cast<char>(std::lround(255 * d));
-        }
-    return bytes;
-}
-
-/// Write a triangle, NAME.gltf, whose scene is under a sky.
-void writeGltfUnderSky(const Sandbox& folder, const std::string& name, const Sky& sky)
-{
-    writeGltf(folder, name);
-    folder.write(name + ".tga", tgaImage(128));
-    constexpr std::array<std::array<Double3, 2>, 6> kFaces{{{{{1, 0, 0}, {0, 1, 0}}},
-                                                            {{{-1, 0, 0}, {0, 1, 0}}},
-                                                            {{{0, 1, 0}, {0, 0, -1}}},
-                                                            {{{0, -1, 0}, {0, 0, 1}}},
-                                                            {{{0, 0, 1}, {0, 1, 0}}},
-                                                            {{{0, 0, -1}, {0, 1, 0}}}}};
-    std::string images, faces;
-    for (size_t face = 0; face < kFaces.size(); ++face)
-    {
-        const std::string file = name + std::to_string(face) + ".tga";
-        folder.write(file, photograph(sky, kFaces[face][0], kFaces[face][1]));
-        images += R"(,{"uri":")" + file + R"("})";
-        faces += (face == 0 ? "" : ",") + std::to_string(face + 1);
-    }
-    std::string text = folder.read(name + ".gltf");
-    const auto insertAfter = [&](const std::string& place, const std::string& addition)
-    { text.insert(text.find(place) + place.size(), addition); };
-    insertAfter(R"("nodes":[0])", R"(,"extensions":{"EXT_lights_image_based":{"light":0}})");
-    insertAfter(name + R"(.tga"})", images);
-    insertAfter(
-        R"("scene":0,)",
-        R"("extensionsUsed":["EXT_lights_image_based"],"extensions":{"EXT_lights_image_based":{"lights":)"
-        R"([{"specularImageSize":16,"specularImages":[[)" +
-            faces +
-            R"(]],"irradianceCoefficients":[[1,1,1],[0,0,0],[0,0,0],[0,0,0],[0,0,0],[0,0,0],[0,0,0],)"
-            R"([0,0,0],[0,0,0]]}]}},)");
-    folder.write(name + ".gltf", text);
-}
-
 /// Return a KTX2 cube of floats of the sky.
 std::string makeCube(const Sky& sky)
 {
     using environment::Layout;
     import::test::Ktx2 cube;
     cube.vk_format = 106; // R32G32B32_SFLOAT
-    cube.width = cube.height = kSide;
+    cube.width = cube.height = kSkySourceSide;
     cube.faces = 6;
     cube.channels = {0, 1, 2};
     cube.levels = {{}};
-    for (uint32_t i = 0; i < 6 * kSide * kSide; ++i)
+    for (uint32_t i = 0; i < 6 * kSkySourceSide * kSkySourceSide; ++i)
     {
         const Double3 color =
-            sky(panelDirection(Layout::cube, i / (kSide * kSide),
-                               {(i % kSide + 0.5) / kSide, (i / kSide % kSide + 0.5) / kSide}));
+            sky(panelDirection(Layout::cube, i / (kSkySourceSide * kSkySourceSide),
+                               {(i % kSkySourceSide + 0.5) / kSkySourceSide,
+                                (i / kSkySourceSide % kSkySourceSide + 0.5) / kSkySourceSide}));
         for (const double channel : {color.x, color.y, color.z})
             import::test::append(cube.levels[0], std::bit_cast<uint32_t>(static_cast<float>(channel)), 4);
     }
@@ -197,30 +136,25 @@ TEST_F(CookSky, givesThePackTheProbeOfTheFile)
     EXPECT_EQ(probes()[0]["bytes"], 524160);
 }
 
-TEST_F(CookSky, isTheImageBasedLightOfASource)
+TEST_F(CookSky, isTheImageBasedLightOfASourceUnlessAnImageIsNamed)
 {
     writeGltfUnderSky(folder, "house", brightSky);
-    folder.write("sky.ktx2", makeCube(brightSky));
-    ASSERT_EQ(cook({"--sky", "sky.ktx2"}).exit_code, 0);
+    folder.write("bright.ktx2", makeCube(brightSky));
+    ASSERT_EQ(cook({"--sky", "bright.ktx2"}).exit_code, 0);
     const formats::PackView expected = openPack();
     const ProgramEnd end = cook({}, {"crate.obj", "house.gltf"});
     ASSERT_EQ(end.exit_code, 0) << end.err;
     EXPECT_EQ(end.err.find("[W1400]"), std::string::npos) << end.err;
     expectSameSky(openPack(), expected);
-}
 
-TEST_F(CookSky, ofAnImageReplacesThatOfASource)
-{
-    writeGltfUnderSky(folder, "house", brightSky);
-    const auto darkSky = [](Double3 d) { return brightSky(d) * 0.25; };
-    folder.write("sky.ktx2", makeCube(darkSky));
-    ASSERT_EQ(cook({"--sky", "sky.ktx2"}).exit_code, 0);
-    const formats::PackView expected = openPack();
-    const ProgramEnd end = cook({"--sky", "sky.ktx2"}, {"house.gltf"});
-    ASSERT_EQ(end.exit_code, 0) << end.err;
-    EXPECT_THAT(end.err, HasSubstr("house.gltf: warning: its image-based light is not the sky of the pack: "
-                                   "environment.file names another [W1400]"));
-    expectSameSky(openPack(), expected);
+    folder.write("dark.ktx2", makeCube([](Double3 d) { return brightSky(d) * 0.25; }));
+    const ProgramEnd named = cook({"--sky", "dark.ktx2"}, {"house.gltf"});
+    ASSERT_EQ(named.exit_code, 0) << named.err;
+    EXPECT_THAT(named.err, HasSubstr("house.gltf: warning: its image-based light is not the sky of the pack: "
+                                     "environment.file names another [W1400]"));
+    const formats::PackView pack = openPack();
+    ASSERT_EQ(pack.probes().size(), 1u);
+    EXPECT_NEAR(pack.probes()[0].irradiance.x, 0.25f * expected.probes()[0].irradiance.x, 1e-4);
 }
 
 TEST_F(CookSky, ofSourcesMustBeTheSame)

@@ -1,4 +1,4 @@
-// Tests the image-based light of a scene (EXT_lights_image_based): directions, radiance, and what is refused.
+// Tests the image-based light of a scene (EXT_lights_image_based): directions, radiance, and refusals.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/import/part/source_space.h"
 #include "tests/pipelines/gltf_fixture.h"
@@ -82,7 +82,7 @@ constexpr std::array<Axes, 6> kFaceAxes{Axes{{1, 0, 0}, {0, 1, 0}},  Axes{{-1, 0
                                         Axes{{0, 1, 0}, {0, 0, -1}}, Axes{{0, -1, 0}, {0, 0, 1}},
                                         Axes{{0, 0, 1}, {0, 1, 0}},  Axes{{0, 0, -1}, {0, 1, 0}}};
 
-/// Return the direction of a texel in the picture that a camera in the middle of the cube takes of a face.
+/// Return the direction of a texel in the picture that a camera in the cube takes of a face.
 Double3 findDirection(uint32_t face, uint32_t x, uint32_t y)
 {
     const auto [forward, up] = kFaceAxes[face];

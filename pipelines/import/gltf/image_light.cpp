@@ -85,7 +85,7 @@ Status FaceReader::addFace(uint32_t face, Environment& cube) const
     return success();
 }
 
-/// Return the radiance of a texel of RGBD: the colour divided by alpha. Images without alpha are opaque.
+/// Return the radiance of a texel of RGBD: colour divided by alpha. Images without alpha are opaque.
 Result<Float3> FaceReader::decodeTexel(uint32_t face, const DecodedImage& image, uint32_t x, uint32_t y) const
 {
     constexpr float kMax = std::numeric_limits<uint16_t>::max();

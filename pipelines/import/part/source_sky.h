@@ -18,8 +18,8 @@ struct SourceSky
     Affine3d world_from_cube;      ///< a rotation
 };
 
-/// Return the sky as world space has it: a cube of as many texels, each the mean of 16 points in it. The
-/// same cube where nothing turns.
+/// Return the sky as world space has it: a cube of as many texels, each the mean of 16 points in it.
+/// The same cube where nothing turns.
 environment::Environment turnSky(const SourceSky& sky);
 
 /// Write the probe of the part's sky; nothing if it has none.

@@ -38,7 +38,7 @@ protected:
         return sandbox.read(name);
     }
 
-    /// Write a pack of two probes: that of smallPack(), and one whose faces have the next face's colours.
+    /// Write a pack of two probes: that of smallPack(), and one with the colours of the next faces.
     void writeTwoProbes() const
     {
         PackModel model = smallPack();

@@ -14,7 +14,7 @@ namespace hearth::import
 namespace
 {
 
-constexpr uint64_t kMaxFaceSize = 4096; ///< that of environment.sky_size; six faces of floats take 1.2 GB
+constexpr uint64_t kMaxFaceSize = 4096; ///< that of environment.sky_size; six faces take 1.2 GB
 constexpr size_t kFaces = 6;
 constexpr size_t kHarmonics = 9;
 
