@@ -202,6 +202,16 @@ TEST_F(GltfImageLight, blendsTexelsOfAnObliqueTurn)
     EXPECT_NEAR(white, 4 * 3.14159265 / 6, 0.05) << "the face keeps its solid angle";
 }
 
+TEST_F(GltfImageLight, facesMayShareAnImage)
+{
+    const environment::Environment sky =
+        importSky(replaced(document(), "[[0,1,2,3,4,5]]", "[[0,1,0,0,1,0]]"));
+    for (const auto& [face, image] : {std::pair(0u, 0u), {1u, 1u}, {2u, 0u}, {3u, 0u}, {4u, 1u}, {5u, 0u}})
+        EXPECT_NEAR(sky.texels[findTexel(sky, findDirection(face, 2, 1))].x,
+                    decode(markTexel(image, 2, 1)[0]), 1e-6)
+            << face;
+}
+
 TEST_F(GltfImageLight, imagesOfFacesAreInUse)
 {
     const Imported result = import(document());

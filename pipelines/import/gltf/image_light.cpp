@@ -36,8 +36,16 @@ public:
     {
         const uint32_t side = light_.face_size;
         Environment cube{Layout::cube, side, side, {}};
+        const std::vector<uint32_t>& images = light_.faces_of_mip[0];
         for (uint32_t face = 0; face < 6; ++face)
-            HEARTH_TRY(addFace(face, cube));
+        {
+            const ptrdiff_t first = std::ranges::find(images, images[face]) - images.begin();
+            if (first == face)
+                HEARTH_TRY(addFace(face, cube));
+            else // an image that several faces share is read once
+                for (size_t i = 0; i < size_t{side} * side; ++i)
+                    cube.texels.push_back(cube.texels[static_cast<size_t>(first) * side * side + i]);
+        }
         return cube;
     }
 
