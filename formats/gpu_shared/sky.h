@@ -252,8 +252,9 @@ HEARTH_FUNCTION Float2 skyTableNode(uint column, uint row)
 //     (1 - wide) mip(roughness', axis) + wide ((1 - even) diffuse + even mean),
 // where diffuse is the mean by the cosine to the normal, and mean that over all directions. The four numbers
 // were fitted to lobes of GGX with height-correlated masking, as harmonics of degree 12 with weights
-// 1 / sqrt(1 + l^2): the rms error of roughness .25 to .8 is .01 to .19 of the lobe, seen at cosines of 1 to
-// .1; one mip about the lobe's mean direction has .02 to .39 (tests/formats/sky_lobe_test.cpp).
+// 1 / sqrt(1 + l^2): the rms error of roughness .4 to .8 is .03 to .22 of the lobe, seen at cosines of 1 to
+// .1; one mip about the lobe's mean direction has .07 to .40 (tests/formats/sky_lobe_test.cpp). The wide part
+// of smooth surfaces is less than the fit asks for: beside a sun it would fill what is dark.
 
 struct SkyLobe
 {
@@ -270,11 +271,11 @@ HEARTH_FUNCTION SkyLobe skyLobe(Half roughness, Half n_dot_v)
     Half aside = 1.0f - n_dot_v;
     Half rest = 1.0f - alpha;
     SkyLobe lobe;
-    lobe.turn = min(alpha * aside * (0.5f + 0.8f * aside), 0.35f);
-    lobe.roughness = roughness * (1.0f - 0.3f * aside) * (1.0f - 0.25f * alpha * alpha);
+    lobe.turn = min(alpha * aside * (0.3f + aside), 0.33f);
+    lobe.roughness = roughness * (1.0f - aside * (0.28f + 0.36f * alpha));
     lobe.wide =
-        min(alpha * alpha * (3.0f - 2.0f * alpha) + 1.6f * aside * aside * aside * alpha * rest * rest, 1.0f);
-    lobe.even = 0.25f * alpha * alpha * alpha * (0.27f + 0.45f * aside * aside);
+        min(alpha * alpha * (2.6f - 1.6f * alpha) + 1.6f * aside * aside * aside * alpha * rest * rest, 1.0f);
+    lobe.even = alpha * alpha * alpha * (0.08f + 0.16f * aside * aside);
     return lobe;
 }
 

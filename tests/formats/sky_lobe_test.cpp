@@ -156,7 +156,8 @@ TEST(SkyLobe, isNearTheLobeOfGgx)
                 mean = mean + sphere().directions[i] * exact[i];
             const double size = measure(exact), error = measure(rest) / size;
             const double one = measure(subtract(exact, weighMip(roughness, mean), 1)) / size;
-            EXPECT_LT(error, 0.08 + 0.15 * (1 - n_dot_v)) << roughness << " " << n_dot_v;
+            const double aside = roughness < 0.5 ? 0.2 : 0.11; // a narrow lobe seen from aside is long
+            EXPECT_LT(error, 0.05 + aside * (1 - n_dot_v)) << roughness << " " << n_dot_v;
             EXPECT_LT(error, 0.7 * one) << roughness << " " << n_dot_v;
         }
 }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "tests/reference/tracer/gltf_material.h"
 #include "tests/reference/tracer/path_tracer.h"
 #include "tests/support/gpu_fixture.h"
 
@@ -24,24 +25,27 @@ reference::Image showRadiance(const Radiance& radiance, uint32_t side)
     return image;
 }
 
-/// Return a square image whose pixels are the linear means of a drawn one's samples.
+/// Return a square image whose pixels show the mean radiance of a drawn one's samples, as pixels of paths do:
+/// the mean of what samples show is another one, as the filmic curve bends.
 /// samples  of a pixel, along each axis
 inline reference::Image averageSamples(const Image& drawn, uint32_t side, uint32_t samples)
 {
-    reference::Image image(side, side);
+    const auto radiance = [](int code)
+    { return reference::invertFilmic(reference::linearFromSrgb(std::min(code / 255.0, 254.5 / 255))); };
+    std::vector<reference::Double3> means;
     for (uint32_t i = 0; i < side * side; ++i)
-        for (int c = 0; c < 3; ++c)
+    {
+        reference::Double3 sum;
+        for (uint32_t sample = 0; sample < samples * samples; ++sample)
         {
-            double sum = 0;
-            for (uint32_t sample = 0; sample < samples * samples; ++sample)
-                sum += reference::linearFromSrgb(channel(drawn.at(samples * (i % side) + sample % samples,
-                                                                  samples * (i / side) + sample / samples),
-                                                         c) /
-                                                 255.0);
-            image.at(i % side, i / side)[c] =
-                static_cast<uint8_t>(reference::srgbFromLinear(sum / (samples * samples)) * 255 + 0.5);
+            const uint32_t color =
+                drawn.at(samples * (i % side) + sample % samples, samples * (i / side) + sample / samples);
+            sum += reference::Double3{radiance(channel(color, 0)), radiance(channel(color, 1)),
+                                      radiance(channel(color, 2))};
         }
-    return image;
+        means.push_back(sum / (samples * samples));
+    }
+    return showRadiance(means, side);
 }
 
 } // namespace hearth::test
