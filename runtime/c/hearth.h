@@ -742,8 +742,8 @@ typedef struct hearth_lamp_weight
     float weight[3]; /* red, green, blue: finite, 0 or more */
 } hearth_lamp_weight;
 
-/* Sun and clear sky (1.8), in place of the scene's sky and its first directional light. Light that was baked into
- * receivers and local probes stays. */
+/* Sun and clear sky (1.8), in place of the scene's sky and its first directional light. The sky's light that was baked
+ * into receivers follows in brightness and colour, not in direction; that of local probes stays. */
 typedef struct hearth_daylight
 {
     float elevation_deg; /* of the sun above the horizon, 0 to 90 */

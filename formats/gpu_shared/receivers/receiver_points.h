@@ -9,7 +9,9 @@ HEARTH_SHARED_BEGIN
 
 struct ReceiverPointsPush
 {
-    ReceiversPush update;
+    uint first_block; ///< this and the next two as in ReceiversPush
+    uint first_weight;
+    uint codec;
     float texel_width; ///< in clip space: 2 over that of the atlas
     float texel_height;
 };

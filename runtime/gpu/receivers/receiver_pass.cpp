@@ -203,7 +203,7 @@ void ReceiverPass::record(const Device& device, VkCommandBuffer commands, const 
     constexpr VkPipelineStageFlags kReaders = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | kCompute;
     const TexelAccess access = findAccess(update_);
     transition(device, commands, atlas.texels, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, access.layout,
-               access.writes, access.reads | access.writes, kReaders, access.stages);
+               access.writes, access.reads | access.writes, kReaders | access.stages, access.stages);
     beginUpdate(device, commands, atlas);
     uint32_t first = 0;
     for (uint32_t group = 0; group < shared::kReceiverGroups; ++group)
@@ -253,7 +253,8 @@ void ReceiverPass::recordBlocks(const Device& device, VkCommandBuffer commands, 
         device.vk.vkCmdDispatch(commands, count, 1, 1);
         return;
     }
-    const shared::ReceiverPointsPush points{push, 2 / static_cast<float>(atlas.record.width),
+    const shared::ReceiverPointsPush points{push.first_block, push.first_weight, push.codec,
+                                            2 / static_cast<float>(atlas.record.width),
                                             2 / static_cast<float>(atlas.record.height)};
     device.vk.vkCmdPushConstants(commands, pipeline_.layout.get(), VK_SHADER_STAGE_VERTEX_BIT, 0,
                                  sizeof(points), &points);

@@ -6,6 +6,7 @@
 #include "formats/gpu_shared/record_values.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace hearth::gpu
 {
@@ -34,6 +35,19 @@ float intensityRatio(float intensity, float baked)
     return baked > 0 ? std::clamp(intensity / baked, 0.0f, kHalfMax) : 0.0f;
 }
 
+/// Return the irradiance of level ground under the gradient of a sky, over 2 pi.
+Float3 levelIrradiance(const shared::Sky& sky)
+{
+    constexpr int kSteps = 64;
+    Float3 sum;
+    for (int i = 0; i < kSteps; ++i)
+    {
+        const float height = (static_cast<float>(i) + 0.5f) / kSteps;
+        sum += shared::skyRadiance(sky, {std::sqrt(1 - height * height), height, 0}) * (height / kSteps);
+    }
+    return sum;
+}
+
 } // namespace
 
 SceneReceivers::SceneReceivers(const formats::PackView& pack, std::span<const shared::Light> lights)
@@ -54,6 +68,8 @@ SceneReceivers::SceneReceivers(const formats::PackView& pack, std::span<const sh
             lamps_of_lights_[record.index] = lamp;
         else if (kind == formats::ReceiverLampKind::mesh_light)
             lamps_of_instances_[record.index] = lamp;
+        else if (kind == formats::ReceiverLampKind::steady)
+            steady_lamp_ = lamp;
     }
     for (shared::ReceiverRow& row : rows_)
         setEmission({1, 1, 1}, row);
@@ -79,6 +95,17 @@ bool SceneReceivers::takeLight(uint32_t slot, const shared::Light& light)
         weight[c] = intensityRatio(light.intensity[c], loaded.intensity[c]);
     schedule_.setWeight(lamps_of_lights_[slot], weight);
     return is_in_place && light.type != shared::kLightDirectional;
+}
+
+void SceneReceivers::takeSky(const shared::Sky& sky, const shared::Sky& baked)
+{
+    if (steady_lamp_ == kInvalidIndex)
+        return;
+    const Float3 now = levelIrradiance(sky), then = levelIrradiance(baked);
+    Float3 weight;
+    for (int c = 0; c < 3; ++c)
+        weight[c] = intensityRatio(now[c], then[c]);
+    schedule_.setWeight(steady_lamp_, weight);
 }
 
 const shared::ReceiverRow& SceneReceivers::weighEmission(uint32_t instance, Float3 weight)

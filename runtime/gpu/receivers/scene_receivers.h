@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "formats/base/index.h"
 #include "formats/gpu_shared/receivers/receiver_rows.h"
 #include "formats/gpu_shared/shading.h"
 #include "formats/pack/pack_view.h"
@@ -32,6 +33,10 @@ public:
     ///          Suns never are: their direct light is not baked
     bool takeLight(uint32_t slot, const shared::Light& light);
 
+    /// Take the sky of a frame: steady light is that of the baked sky, and gets the ratio of what both
+    /// give level ground. It is exact where the sky changes its brightness and colour alone.
+    void takeSky(const shared::Sky& sky, const shared::Sky& baked);
+
     /// Set the weight of an instance's emission, in its row and of its lamp. Returns the row.
     const shared::ReceiverRow& weighEmission(uint32_t instance, Float3 weight);
 
@@ -51,6 +56,7 @@ public:
     std::optional<ReceiverAtlas> atlas; ///< set by the upload
 
 private:
+    uint32_t steady_lamp_ = kInvalidIndex;
     std::vector<uint32_t> lamps_of_lights_;    ///< [slot]: lamp, or kInvalidIndex
     std::vector<uint32_t> lamps_of_instances_; ///< [instance]: the same
     std::vector<shared::Light> loaded_;        ///< lights of the pack

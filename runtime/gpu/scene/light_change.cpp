@@ -129,6 +129,8 @@ void takeDaylight(const Scene& scene, const DaylightChange& daylight)
     scene.lights->setSky(daylight.sky);
     if (scene.surroundings != nullptr)
         scene.surroundings->changeSky(daylight.sky);
+    if (scene.receivers != nullptr)
+        scene.receivers->takeSky(daylight.sky, scene.lights->loadedSky());
     takeLights(scene, daylight.sun ? std::span(&*daylight.sun, 1) : std::span<const LightChange>{}, {});
 }
 

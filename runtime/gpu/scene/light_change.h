@@ -35,10 +35,10 @@ struct DaylightChange
     std::optional<LightChange> sun{}; ///< none: the scene has no sun
 };
 
-/// Compute the sky and the sun of a scene under a daylight. Its sun is the first directional light that the
-/// scene was loaded with: that of scenes without lights, or one of the pack, whose colour and direction it
-/// replaces. Bricks and what surroundings give back follow; light that was baked into receivers and local
-/// probes stays.
+/// Compute the sky and the sun of a scene under a daylight. Its sun is the first directional light that
+/// the scene was loaded with: that of scenes without lights, or one of the pack, whose colour and
+/// direction it replaces. Bricks and what surroundings give back follow; the sky's light in receivers
+/// follows in brightness and colour, not in direction. Light that was baked into local probes stays.
 /// daylight  none: the sky and the sun as loaded
 /// errors: usage: values beyond their ranges, or the sky of the scene is an image.
 Result<DaylightChange> changeDaylight(const Scene& scene, const std::optional<shared::Daylight>& daylight);

@@ -6,9 +6,10 @@ layout(set = kSetReceivers, binding = kReceiversBlocks, std430) readonly buffer 
 layout(set = kSetReceivers, binding = kReceiversWords, std430) readonly buffer Words { uint words[]; };
 layout(set = kSetReceivers, binding = kReceiversWeights, std430) readonly buffer Weights { vec4 weights[]; };
 
-/// texel  number in the block
-/// place  set to that in the atlas
-uint sumReceiver(ReceiverBlock block, uint texel, ReceiversPush push, out uvec2 place)
+/// texel         number in the block
+/// first_weight  of the frame
+/// place         set to that in the atlas
+uint sumReceiver(ReceiverBlock block, uint texel, uint first_weight, uint codec, out uvec2 place)
 {
     uint word = block.first_word + texel;
     place = uvec2(receiverX(words[word]), receiverY(words[word]));
@@ -16,8 +17,8 @@ uint sumReceiver(ReceiverBlock block, uint texel, ReceiversPush push, out uvec2 
     for (uint color = 0u; color < block.color_count; ++color)
     {
         word += block.texel_count;
-        vec3 weight = weights[push.first_weight + receiverLamp(block, color)].xyz;
-        sum = addReceiverLight(sum, weight, decodeReceiverColor(words[word], push.codec));
+        vec3 weight = weights[first_weight + receiverLamp(block, color)].xyz;
+        sum = addReceiverLight(sum, weight, decodeReceiverColor(words[word], codec));
     }
     return encodeSharedExponentWord(sum);
 }

@@ -17,6 +17,6 @@ void main()
     if (gl_LocalInvocationIndex >= block.texel_count)
         return;
     uvec2 place;
-    uint word = sumReceiver(block, gl_LocalInvocationIndex, push, place);
+    uint word = sumReceiver(block, gl_LocalInvocationIndex, push.first_weight, push.codec, place);
     imageStore(texels, ivec2(place), uvec4(word));
 }

@@ -39,6 +39,7 @@ struct Changes
     std::vector<gpu::InstanceMove> moves{};
     std::vector<gpu::LightChange> lights{};
     std::vector<gpu::LampWeight> weights{};
+    std::optional<gpu::DaylightChange> daylight{};
 };
 
 class ReceiverDrawTest : public AllLightsTest
@@ -60,6 +61,7 @@ protected:
         const gpu::FrameInput input{.view = makeView(scene, camera, {.width = kWidth, .height = kHeight}),
                                     .moves = changes.moves,
                                     .lights = changes.lights,
+                                    .daylight = changes.daylight ? &*changes.daylight : nullptr,
                                     .lamp_weights = changes.weights};
         const Status status = host().run(
             [&](VkCommandBuffer commands)
@@ -260,11 +262,13 @@ TEST_F(ReceiverDrawTest, pointsDrawTheSameImage)
     options.deferred = true;
     options.receiver_update = gpu::ReceiverUpdate::points;
     replaceRenderer(options);
-    const auto scene = load(pack);
-    EXPECT_EQ(drawRadiance(*scene), expected);
-    EXPECT_EQ(scene->receivers->updateCost(), scene->receivers->fullCost());
-    drawRadiance(*scene);
-    EXPECT_EQ(scene->receivers->updateCost(), pack::ReceiverCost{}) << "nothing has changed";
+    {
+        const auto scene = load(pack);
+        EXPECT_EQ(drawRadiance(*scene), expected);
+        EXPECT_EQ(scene->receivers->updateCost(), scene->receivers->fullCost());
+        drawRadiance(*scene);
+        EXPECT_EQ(scene->receivers->updateCost(), pack::ReceiverCost{}) << "nothing has changed";
+    }
     options.receiver_update = gpu::ReceiverUpdate::compute;
     replaceRenderer(options);
 }
@@ -326,6 +330,41 @@ TEST_F(ReceiverDrawTest, aFlatWallShowsTheTexelsOfTheTwin)
         for (int c = 0; c < 3 && instances[i] < ReceiverRoom::kWalls; ++c, ++count)
             EXPECT_NEAR(radiance[i][c], expected[c], 0.002f * expected[c]);
     EXPECT_GT(count, 1000u);
+}
+
+/// Return the irradiance of level ground, over pi: the mean of random directions by the cosine.
+Float3 sampleLevelGround(const shared::Sky& sky)
+{
+    std::mt19937 random(5);
+    std::uniform_real_distribution<float> unit(0, 1);
+    Float3 sum;
+    constexpr int kDirections = 20000;
+    for (int i = 0; i < kDirections; ++i)
+    {
+        const float height = std::sqrt(unit(random)), turn = 6.2831853f * unit(random);
+        const float aside = std::sqrt(1 - height * height);
+        sum +=
+            shared::skyRadiance(sky, {aside * std::cos(turn), height, aside * std::sin(turn)}) / kDirections;
+    }
+    return sum;
+}
+
+TEST_F(ReceiverDrawTest, lightOfTheSkyFollowsTheDaylight)
+{
+    ReceiverRoom room;
+    room.setSteady({0.3f, 1.7f, 0.9f});
+    room.addLamp(lamp({0.2f, 2, 9}, 0)); // without light, so that the sun of empty scenes is not there
+    const auto scene = load(room.build());
+    const auto instances = drawInstances(*scene);
+    const std::vector<Float3> before = drawRadiance(*scene);
+    const gpu::DaylightChange evening =
+        gpu::changeDaylight(*scene, shared::Daylight{.elevation_deg = 8}).value();
+    const Float3 now = sampleLevelGround(evening.sky), then = sampleLevelGround(scene->lights->loadedSky());
+    const Float3 ratio{now.x / then.x, now.y / then.y, now.z / then.z};
+    EXPECT_LT(ratio.y, 0.7f);
+    expectNear(drawRadiance(*scene, {.daylight = evening}), scaled(before, ratio), instances, 0,
+               ReceiverRoom::kWalls, 0.01);
+    EXPECT_EQ(drawRadiance(*scene, {.daylight = gpu::changeDaylight(*scene, std::nullopt).value()}), before);
 }
 
 TEST_F(ReceiverDrawTest, emissionHasTheWeightOfItsLamp)
