@@ -6,6 +6,7 @@
 #include "formats/base/index.h"
 #include "formats/gpu_shared/receivers/receiver_rows.h"
 #include "formats/gpu_shared/shading.h"
+#include "formats/gpu_shared/sky.h"
 #include "formats/pack/pack_view.h"
 #include "runtime/gpu/receivers/receiver_pass.h"
 #include "runtime/pack/receivers/receiver_light.h"
