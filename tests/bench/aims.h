@@ -144,7 +144,7 @@ inline constexpr std::array kAims = {
     Aim{"receivers", "jump between neighbouring texels", Bound::at_most, 0.01},
     Aim{"receivers", "records of 16 bytes a texel", Bound::at_most, 2.2},
     Aim{"receiver-scene", "rms of all on", Bound::at_most, 0.015},
-    Aim{"receiver-scene", "rms of random weights", Bound::at_most, 0.02},
+    Aim{"receiver-scene", "rms of random weights", Bound::at_most, 0.015},
     Aim{"receiver-scene", "jump between neighbouring texels", Bound::at_most, 0.01},
     Aim{"receiver-scene", "records of 16 bytes a texel", Bound::at_most, 2.2},
     Aim{"receiver-scene", "rms error of all lamps beside paths", Bound::at_most, 0.08},

@@ -17,7 +17,7 @@ namespace hearth::receivers
 struct SelectOptions
 {
     /// Colours of a texel, at most, steady light included: 2 to shared::kMaxReceiverColors. With 3 a texel
-    /// is one record of 16 bytes, and jumps of 8 % are seen where the fourth lamp would matter.
+    /// is one record of 16 bytes, and jumps are seen where the fourth lamp would matter.
     uint32_t max_colors = shared::kMaxReceiverColors;
     /// Shares of a texel's light: lamps below `low` are dropped, those above `high` kept, between them
     /// smoothly dimmed. In ./dev bench receivers these are off by 1 % rms under any weights with 35 bytes
@@ -44,7 +44,7 @@ double largestChannel(Double3 color);
 /// A lamp has a share I, its largest channel over that of the sum of all: by luminance a blue lamp would
 /// be dropped that is a tenth of all blue. It is dimmed to I (1 - ((b - I) / (b - a))^4) where I is in
 /// [a, b], with a and b as shares of the sum; b is no more than the brightest lamp, so that one is kept.
-/// Where more than max_colors are left, they are dimmed by (Y - Y_n) / (Y / 4), with Y_n the luminance of
+/// If more than max_colors are left, they are dimmed by (Y - Y_n) / (Y / 4), with Y_n the luminance of
 /// the brightest that is dropped: all vanish before another takes their place. What is dimmed or dropped
 /// is given to the kept ones by their luminance, so the sum of all stays as it is, channel by channel.
 ///
