@@ -19,6 +19,12 @@ struct EmissionBox
     float reserved;
 };
 
+/// Parts of the light of faces: that of the passes over bricks, and that of baked lamps, by their weights.
+/// The buffer has a shared::BrickLight of each face for the former, then a word of E5B9G9R9 of each for
+/// the latter.
+HEARTH_CONSTANT uint kLiveFaceLight = 1u;
+HEARTH_CONSTANT uint kBakedFaceLight = 2u;
+
 struct BrickView
 {
     BrickGrid grid;
@@ -27,9 +33,9 @@ struct BrickView
     uint slice_bricks; ///< number of these bricks
     uint slice_faces;  ///< number of their faces, which are contiguous
     uint emission_box_count;
-    uint light_rays; ///< rays of one face
-    uint reserved0;
-    uint reserved1;
+    uint light_rays;   ///< rays of one face
+    uint light_parts;  ///< bits kLiveFaceLight, kBakedFaceLight: of the light of a face
+    float baked_scale; ///< radiance is the baked colour times it
     EmissionBox emission_boxes[kMaxEmissionBoxes];
 };
 

@@ -80,7 +80,7 @@ struct Light
     float cone_scale; ///< spot: saturate(dot(direction, from light) * cone_scale + cone_offset)^2
     float cone_offset;
     uint reflector_gain; ///< reflector.h: the brightest sample, encodeRadiance; kNoReflector: none
-    uint reflector_axis; ///< coded as normals of faces, and bit kLightBaked (receivers/receiver_rows.h)
+    uint reflector_axis; ///< coded as normals of faces, and bits of receivers/receiver_rows.h
     uint reflected0;     ///< 4 samples of 8 bits, the first in the low byte, like the next ones
     uint reflected1;
     uint reflected2;

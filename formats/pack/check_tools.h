@@ -157,6 +157,8 @@ Status checkSpecularTable(const PackView& view);
 Status checkProbeTables(const PackView& view);
 Status checkReceiverTables(const PackView& view);
 Status checkReceiverReferences(const PackView& view);
+/// Check that the faces that are receivers are those of the grid, which is checked.
+Status checkFaceReferences(const PackView& view);
 Status checkSurroundings(const PackView& view);
 Status checkBrickTables(const PackView& view);
 

@@ -165,7 +165,8 @@ Status checkPackWith(const PackView& view, check::BulkData bulk, const CheckHier
     HEARTH_TRY(checkReceivers(view));
     HEARTH_TRY(check::checkReceiverReferences(view));
     HEARTH_TRY(check::checkSurroundings(view));
-    return checkBricks(view);
+    HEARTH_TRY(checkBricks(view));
+    return check::checkFaceReferences(view);
 }
 
 } // namespace

@@ -363,6 +363,17 @@ public:
                 receiver_lamps_.records.span(), receiver_rects_.records.span(),
                 receiver_blocks_.records.span(), receiver_words_.records.span()};
     }
+    /// Return one record or none.
+    std::span<const ReceiverAtlasRecord> faceAtlases() const { return face_atlases_.records.span(); }
+    /// Return the tables of the faces of bricks that are receivers, with the lamps of `receivers`.
+    ReceiverTables faceReceivers() const
+    {
+        return {faceAtlases().empty() ? ReceiverAtlasRecord{} : faceAtlases()[0],
+                receiver_lamps_.records.span(),
+                {},
+                face_blocks_.records.span(),
+                face_words_.records.span()};
+    }
     /// Return the surroundings of each instance; empty if nothing is baked.
     std::span<const SurroundingsRecord> surroundings() const { return surroundings_.records.span(); }
     std::span<const RadianceTransferRecord> radianceTransfers() const
@@ -431,9 +442,10 @@ private:
                         keys_, key_bits_, morph_weights_, meshes_, levels_, groups_, clusters_, pages_,
                         page_parents_, authored_levels_, deformed_meshes_, deformed_clusters_,
                         cluster_joints_, specular_tables_, probes_, probe_texels_, receiver_atlases_,
-                        receiver_lamps_, receiver_rects_, receiver_blocks_, receiver_words_, surroundings_,
-                        radiance_transfers_, brick_grid_, brick_groups_, bricks_, brick_opacity_,
-                        brick_albedo_, brick_normals_, brick_emission_, brick_lighting_, reflectors_);
+                        receiver_lamps_, receiver_rects_, receiver_blocks_, receiver_words_, face_atlases_,
+                        face_blocks_, face_words_, surroundings_, radiance_transfers_, brick_grid_,
+                        brick_groups_, bricks_, brick_opacity_, brick_albedo_, brick_normals_,
+                        brick_emission_, brick_lighting_, reflectors_);
     }
     static std::string_view asText(const ChunkData& data)
     {
@@ -479,6 +491,9 @@ private:
     Table<ReceiverRectRecord> receiver_rects_{kChunkReceiverRects};
     Table<ReceiverBlockRecord> receiver_blocks_{kChunkReceiverBlocks};
     Table<uint32_t> receiver_words_{kChunkReceiverWords};
+    Table<ReceiverAtlasRecord> face_atlases_{kChunkFaceReceivers};
+    Table<ReceiverBlockRecord> face_blocks_{kChunkFaceBlocks};
+    Table<uint32_t> face_words_{kChunkFaceWords};
     Table<SurroundingsRecord> surroundings_{kChunkSurroundings};
     Table<RadianceTransferRecord> radiance_transfers_{kChunkRadianceTransfers};
     Table<BrickGridRecord> brick_grid_{kChunkBrickGrid};

@@ -10,11 +10,21 @@ namespace hearth::formats::check
 namespace
 {
 
-constexpr const char* kAtlasKind = "receivers";
 constexpr const char* kLampKind = "receiver lamp";
 constexpr const char* kRectKind = "receiver rectangle";
-constexpr const char* kBlockKind = "receiver block";
 constexpr uint32_t kMaxUvSets = 4;
+
+/// Words of messages about texels of an atlas, and about faces of bricks as texels.
+struct Words
+{
+    const char* atlas;
+    const char* block;
+    const char* word;
+    const char* place_is_free; ///< of a texel that no rectangle, or no face, is left for
+};
+constexpr Words kTexelWords{"receivers", "receiver block", "receiver word",
+                            " is at no rectangle, or in an earlier block"};
+constexpr Words kFaceWords{"face receivers", "face block", "face word", " is in an earlier block"};
 
 /// Set of texels of an atlas.
 class TexelSet
@@ -47,11 +57,11 @@ private:
     std::vector<uint64_t> bits_;
 };
 
-Status checkAtlas(const PackView& view, const ReceiverTables& tables)
+Status checkAtlas(const PackView& view, const ReceiverTables& tables, const Words& words)
 {
     const ReceiverAtlasRecord& atlas = tables.atlas;
     const auto wrong = [&](std::string detail)
-    { return makeError(view, Issue::meaning_value, kAtlasKind, 0, std::move(detail)); };
+    { return makeError(view, Issue::meaning_value, words.atlas, 0, std::move(detail)); };
     if (atlas.width == 0 || atlas.width > shared::kMaxReceiverSide || atlas.height == 0 ||
         atlas.height > shared::kMaxReceiverSide)
         return wrong(std::to_string(atlas.width) + " x " + std::to_string(atlas.height) + " texels");
@@ -60,10 +70,10 @@ Status checkAtlas(const PackView& view, const ReceiverTables& tables)
     if (!isPowerOfTwo(atlas.scale) || !inside(atlas.scale, kMinReceiverScale, 1 / kMinReceiverScale))
         return wrong("its scale is not possible");
     if (!reservedZero(atlas.reserved))
-        return makeError(view, Issue::meaning_padding, kAtlasKind, 0, "a reserved field is not 0");
+        return makeError(view, Issue::meaning_padding, words.atlas, 0, "a reserved field is not 0");
     if (atlas.lamp_count != tables.lamps.size() || atlas.rect_count != tables.rects.size() ||
         atlas.block_count != tables.blocks.size() || atlas.word_count != tables.words.size())
-        return makeError(view, Issue::meaning_range, kAtlasKind, 0,
+        return makeError(view, Issue::meaning_range, words.atlas, 0,
                          "its tables have other sizes than it says");
     return atlas.lamp_count <= kMaxReceiverLamps ? success() : wrong("too many lamps");
 }
@@ -122,11 +132,12 @@ Status collectTexels(const PackView& view, const ReceiverTables& tables, TexelSe
 
 /// Check the numbers of a block: those of its words are not read before.
 /// first_word  behind the block before
-Status checkBlock(const PackView& view, const ReceiverTables& tables, size_t i, uint64_t first_word)
+Status checkBlock(const PackView& view, const ReceiverTables& tables, const Words& kinds, size_t i,
+                  uint64_t first_word)
 {
     const ReceiverBlockRecord& block = tables.blocks[i];
     const auto wrong = [&](Issue issue, std::string detail)
-    { return makeError(view, issue, kBlockKind, i, std::move(detail)); };
+    { return makeError(view, issue, kinds.block, i, std::move(detail)); };
     if (block.texel_count == 0 || block.texel_count > shared::kReceiverBlockTexels ||
         block.color_count == 0 || block.color_count > shared::kMaxReceiverColors ||
         block.group >= shared::kReceiverGroups)
@@ -156,7 +167,8 @@ Status checkBlock(const PackView& view, const ReceiverTables& tables, size_t i, 
 
 /// Check the places of a block's texels. All colours are allowed.
 /// texels  at the rectangles, without those of earlier blocks; the block's are taken out
-Status checkPlaces(const PackView& view, const ReceiverTables& tables, size_t i, TexelSet& texels)
+Status checkPlaces(const PackView& view, const ReceiverTables& tables, const Words& kinds, size_t i,
+                   TexelSet& texels)
 {
     const ReceiverBlockRecord& block = tables.blocks[i];
     const std::span places = tables.words.subspan(block.first_word, block.texel_count);
@@ -165,7 +177,7 @@ Status checkPlaces(const PackView& view, const ReceiverTables& tables, size_t i,
         const uint32_t x = shared::receiverX(places[t]), y = shared::receiverY(places[t]);
         const std::string text = "texel (" + std::to_string(x) + ", " + std::to_string(y) + ")";
         const auto wrong = [&](Issue issue, const char* detail)
-        { return makeError(view, issue, kBlockKind, i, text + detail); };
+        { return makeError(view, issue, kinds.block, i, text + detail); };
         if (places[t] >> (2 * shared::kReceiverSideBits) != 0)
             return wrong(Issue::meaning_padding, ": reserved bits are not 0");
         if (x >= tables.atlas.width || y >= tables.atlas.height)
@@ -176,52 +188,79 @@ Status checkPlaces(const PackView& view, const ReceiverTables& tables, size_t i,
                          receiverOrder(x, y))
             return wrong(Issue::meaning_order, " does not follow the one before");
         if (!texels.remove(x, y))
-            return wrong(Issue::meaning_value, " is at no rectangle, or in an earlier block");
+            return wrong(Issue::meaning_value, kinds.place_is_free);
     }
     return success();
 }
 
-Status checkBlocks(const PackView& view, const ReceiverTables& tables, TexelSet& texels)
+Status checkBlocks(const PackView& view, const ReceiverTables& tables, const Words& kinds, TexelSet& texels)
 {
     uint64_t words = 0, texel_count = 0;
     uint32_t group_blocks[shared::kReceiverGroups] = {};
     for (size_t i = 0; i < tables.blocks.size(); ++i)
     {
-        HEARTH_TRY(checkBlock(view, tables, i, words));
-        HEARTH_TRY(checkPlaces(view, tables, i, texels));
+        HEARTH_TRY(checkBlock(view, tables, kinds, i, words));
+        HEARTH_TRY(checkPlaces(view, tables, kinds, i, texels));
         const ReceiverBlockRecord& block = tables.blocks[i];
         words += uint64_t{block.texel_count} * (1 + block.color_count);
         texel_count += block.texel_count;
         ++group_blocks[block.group];
     }
     if (words != tables.words.size())
-        return makeError(view, Issue::meaning_range, "receiver word", words, "belongs to no block");
+        return makeError(view, Issue::meaning_range, kinds.word, words, "belongs to no block");
     if (texel_count != tables.atlas.texel_count ||
         !std::equal(std::begin(group_blocks), std::end(group_blocks), std::begin(tables.atlas.group_blocks)))
-        return makeError(view, Issue::meaning_value, kAtlasKind, 0,
+        return makeError(view, Issue::meaning_value, kinds.atlas, 0,
                          "its blocks have other texels or groups than it says");
     return success();
+}
+
+/// Check that there are no tables but the lamps, which texels and faces share.
+Status checkNoAtlas(const PackView& view, const ReceiverTables& tables, const Words& words)
+{
+    return tables.rects.empty() && tables.blocks.empty() && tables.words.empty()
+               ? success()
+               : makeError(view, Issue::meaning_range, words.atlas, 0, "tables without an atlas");
+}
+
+Status checkTexels(const PackView& view)
+{
+    const ReceiverTables tables = view.receivers();
+    if (view.receiverAtlases().size() > 1)
+        return makeError(view, Issue::meaning_value, kTexelWords.atlas, 1, "a pack has one at most");
+    if (view.receiverAtlases().empty())
+        return checkNoAtlas(view, tables, kTexelWords);
+    HEARTH_TRY(checkAtlas(view, tables, kTexelWords));
+    TexelSet texels(tables.atlas);
+    HEARTH_TRY(collectTexels(view, tables, texels));
+    return checkBlocks(view, tables, kTexelWords, texels);
+}
+
+/// Check faces of bricks as receivers. How many there are is in the grid: checkFaceReferences.
+Status checkFaces(const PackView& view)
+{
+    const ReceiverTables tables = view.faceReceivers();
+    if (view.faceAtlases().size() > 1)
+        return makeError(view, Issue::meaning_value, kFaceWords.atlas, 1, "a pack has one at most");
+    if (view.faceAtlases().empty())
+        return checkNoAtlas(view, tables, kFaceWords);
+    HEARTH_TRY(checkAtlas(view, tables, kFaceWords));
+    TexelSet faces(tables.atlas);
+    for (uint32_t y = 0; y < tables.atlas.height; ++y)
+        for (uint32_t x = 0; x < tables.atlas.width; ++x)
+            faces.add(x, y);
+    return checkBlocks(view, tables, kFaceWords, faces);
 }
 
 } // namespace
 
 Status checkReceiverTables(const PackView& view)
 {
-    if (view.receiverAtlases().size() > 1)
-        return makeError(view, Issue::meaning_value, kAtlasKind, 1, "a pack has one at most");
-    const ReceiverTables tables = view.receivers();
-    if (view.receiverAtlases().empty())
-    {
-        const bool is_empty =
-            tables.lamps.empty() && tables.rects.empty() && tables.blocks.empty() && tables.words.empty();
-        return is_empty ? success()
-                        : makeError(view, Issue::meaning_range, kAtlasKind, 0, "tables without an atlas");
-    }
-    HEARTH_TRY(checkAtlas(view, tables));
-    HEARTH_TRY(checkLamps(view, tables));
-    TexelSet texels(tables.atlas);
-    HEARTH_TRY(collectTexels(view, tables, texels));
-    return checkBlocks(view, tables, texels);
+    if (view.receiverAtlases().empty() && view.faceAtlases().empty() && !view.receivers().lamps.empty())
+        return makeError(view, Issue::meaning_range, kLampKind, 0, "there are no receivers");
+    HEARTH_TRY(checkLamps(view, view.receivers()));
+    HEARTH_TRY(checkTexels(view));
+    return checkFaces(view);
 }
 
 Status checkReceiverReferences(const PackView& view)
@@ -248,6 +287,25 @@ Status checkReceiverReferences(const PackView& view)
             return makeError(view, Issue::meaning_reference, kRectKind, i,
                              "UV set " + std::to_string(rect.uv_set) + " that its mesh does not have");
     }
+    return success();
+}
+
+Status checkFaceReferences(const PackView& view)
+{
+    if (view.faceAtlases().empty())
+        return success();
+    const ReceiverTables tables = view.faceReceivers();
+    const uint32_t count = view.brickGrid().empty() ? 0 : view.brickGrid()[0].face_count;
+    const FaceAtlasSize size = faceAtlasSize(count);
+    if (tables.atlas.width != size.width || tables.atlas.height != size.height)
+        return makeError(view, Issue::meaning_reference, kFaceWords.atlas, 0,
+                         "they are not those of the grid, which has " + std::to_string(count) + " faces");
+    for (size_t i = 0; i < tables.blocks.size(); ++i)
+        for (const uint32_t face :
+             tables.words.subspan(tables.blocks[i].first_word, tables.blocks[i].texel_count))
+            if (face >= count)
+                return makeError(view, Issue::meaning_reference, kFaceWords.block, i,
+                                 "face " + std::to_string(face));
     return success();
 }
 

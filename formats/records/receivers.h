@@ -16,10 +16,14 @@ inline constexpr uint32_t kChunkReceiverLamps = fourCC("RCVL");  ///< ReceiverLa
 inline constexpr uint32_t kChunkReceiverRects = fourCC("RCVI");  ///< ReceiverRectRecord[]
 inline constexpr uint32_t kChunkReceiverBlocks = fourCC("RCVB"); ///< ReceiverBlockRecord[]
 inline constexpr uint32_t kChunkReceiverWords = fourCC("RCVW");  ///< u32[], of all blocks
+inline constexpr uint32_t kChunkFaceReceivers = fourCC("RCFA");  ///< ReceiverAtlasRecord[], one at most
+inline constexpr uint32_t kChunkFaceBlocks = fourCC("RCFB");     ///< ReceiverBlockRecord[], of faces
+inline constexpr uint32_t kChunkFaceWords = fourCC("RCFW");      ///< u32[], of all blocks of faces
 
-/// All chunks of an atlas.
+/// Chunks of texels, with the lamps of all receivers; and of faces.
 inline constexpr std::array kReceiverChunks{kChunkReceivers, kChunkReceiverLamps, kChunkReceiverRects,
                                             kChunkReceiverBlocks, kChunkReceiverWords};
+inline constexpr std::array kFaceReceiverChunks{kChunkFaceReceivers, kChunkFaceBlocks, kChunkFaceWords};
 
 /// Lamps of an atlas, at most: blocks name them by 16 bits.
 inline constexpr uint32_t kMaxReceiverLamps = 1u << 16;
@@ -40,7 +44,8 @@ enum class ReceiverLampKind : uint32_t
     mesh_light = 2, ///< an instance whose material emits
 };
 
-/// Atlas of texels that receive irradiance.
+/// Atlas of texels that receive irradiance; or the faces of the grid of bricks, in rows of
+/// shared::kMaxReceiverSide.
 struct ReceiverAtlasRecord
 {
     uint32_t width;
@@ -89,6 +94,18 @@ struct ReceiverTables
     std::span<const uint32_t> words;
 };
 
+/// Width and height of the atlas whose texels are faces.
+struct FaceAtlasSize
+{
+    uint32_t width, height;
+};
+
+constexpr FaceAtlasSize faceAtlasSize(uint32_t face_count)
+{
+    constexpr uint32_t kRow = shared::kMaxReceiverSide;
+    return {face_count < kRow ? face_count : kRow, face_count / kRow + (face_count % kRow != 0 ? 1u : 0u)};
+}
+
 /// Return a number that rises along the Z-order curve of texels; coordinates are below 2^16. Texels of a
 /// block rise by it, so that a workgroup writes near each other.
 constexpr uint32_t receiverOrder(uint32_t x, uint32_t y)
@@ -135,7 +152,7 @@ HEARTH_RECORD(hearth::formats::ReceiverRectRecord, 24,
 
 HEARTH_RECORD(hearth::formats::ReceiverBlockRecord, 40,
               HEARTH_FIELD(hearth::formats::ReceiverBlockRecord, first_word,
-                           "of chunk RCVW; the block has texel_count (1 + color_count) words"),
+                           "of chunk RCVW, of faces RCFW; the block has texel_count (1 + color_count) words"),
               HEARTH_FIELD(hearth::formats::ReceiverBlockRecord, texel_count, "1 to 64"),
               HEARTH_FIELD(hearth::formats::ReceiverBlockRecord, color_count, "1 to 12"),
               HEARTH_FIELD(hearth::formats::ReceiverBlockRecord, group,

@@ -70,15 +70,15 @@ LocalProbes makeLocalProbes(std::span<const ProbeRecord> probes)
         LocalProbeTable table{};
         const auto number = static_cast<uint32_t>(local.tables.size());
         table.probe = {.position = record.position,
-                       .irradiance = record.irradiance_luminance,
+                       .irradiance_red = record.irradiance_luminance,
                        .box_min = record.box_min,
                        .atlas_row = number * probeAtlasRows(record.face_size),
                        .box_max = record.box_max,
                        .fade = record.fade,
                        .influence_min = record.influence_min,
-                       .reserved0 = 0,
+                       .irradiance_green = record.irradiance_luminance,
                        .influence_max = record.influence_max,
-                       .reserved1 = 0,
+                       .irradiance_blue = record.irradiance_luminance,
                        .sky_share = {record.sky_share[0], record.sky_share[1], record.sky_share[2],
                                      record.sky_share[3]}};
         for (size_t i = 0; i < table.harmonics.size(); ++i)

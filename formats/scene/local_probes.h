@@ -19,7 +19,7 @@ struct LocalProbeTable
 {
     LocalProbe probe;
     std::array<Float4, kSkyHarmonics>
-        harmonics; ///< of radiance over LocalProbe::irradiance; w: its luminance with that of lamps
+        harmonics; ///< of radiance over the mean irradiance's luminance; w: its luminance with lamps
 };
 static_assert(sizeof(LocalProbeTable) == 16 * kLocalProbeRows);
 

@@ -61,7 +61,7 @@ Cooker describeReceivers()
             .scope = Scope::pack,
             .switched_by = "receivers.mode",
             .reads = {"import", "clusters", "textures"},
-            .reads_of_pack = {"probe"},
+            .reads_of_pack = {"probe", "bricks"},
             .link_option = "--receivers",
             .has_statistics = true,
             .settings = makeReceiverSettings(),

@@ -570,15 +570,25 @@ Result<std::optional<PackView>> openBricks(const std::string& path)
 }
 
 /// Open the part with the pack's receivers, or with the reason why it has none; nullopt if `path` is empty.
-Result<std::optional<PackView>> openReceivers(const std::string& path)
+/// bricks  part with the grid whose faces may be receivers
+Result<std::optional<PackView>> openReceivers(const std::string& path, const std::optional<PackView>& bricks)
 {
     if (path.empty())
         return std::optional<PackView>();
     HEARTH_ASSIGN_OR_RETURN(PackView part, openPart(path));
     HEARTH_TRY(checkReceivers(part)); // a failure here names the part
-    if (part.receiverAtlases().empty() && !hasSettings(part.meta(), "receivers"))
-        return Error{Issue::chunk_missing, path, chunkName(kChunkReceivers, 0),
-                     "this is not a receivers part: it has no atlas"};
+    if (part.receivers().lamps.empty() && !hasSettings(part.meta(), "receivers"))
+        return Error{Issue::chunk_missing, path, chunkName(kChunkReceiverLamps, 0),
+                     "this is not a receivers part: it has no lamps"};
+    if (!part.faceAtlases().empty())
+    {
+        const uint32_t faces = bricks && !bricks->brickGrid().empty() ? bricks->brickGrid()[0].face_count : 0;
+        if (const FaceAtlasSize size = faceAtlasSize(faces);
+            part.faceAtlases()[0].width != size.width || part.faceAtlases()[0].height != size.height)
+            return Error{Issue::meaning_reference, path, chunkName(kChunkFaceReceivers, 0),
+                         "it has the light of other bricks than the pack, which has " +
+                             std::to_string(faces) + " faces; cook it again with --bricks"};
+    }
     return std::optional<PackView>(std::move(part));
 }
 
@@ -662,7 +672,7 @@ Result<OpenPackParts> openPackParts(const PackParts& parts, std::span<const Sour
     HEARTH_ASSIGN_OR_RETURN(opened.specular, readSpecular(parts.specular));
     HEARTH_ASSIGN_OR_RETURN(opened.bricks, openBricks(parts.bricks));
     HEARTH_ASSIGN_OR_RETURN(opened.probes, readProbes(parts.probes, sources));
-    HEARTH_ASSIGN_OR_RETURN(opened.receivers, openReceivers(parts.receivers));
+    HEARTH_ASSIGN_OR_RETURN(opened.receivers, openReceivers(parts.receivers, opened.bricks));
     return opened;
 }
 
@@ -696,6 +706,7 @@ Status writePack(const std::string& path, std::span<const Source> sources, const
     HEARTH_TRY(writeSurroundings(writer, sources));
     HEARTH_TRY(copyTables(writer, pack_parts.bricks, kBrickChunks));
     HEARTH_TRY(copyTables(writer, pack_parts.receivers, kReceiverChunks));
+    HEARTH_TRY(copyTables(writer, pack_parts.receivers, kFaceReceiverChunks));
     HEARTH_TRY(writePages(writer, sources));
     HEARTH_TRY(copyImages(writer, sources, images));
     return writer.finish();

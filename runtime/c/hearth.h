@@ -718,7 +718,8 @@ enum
     HEARTH_LIGHT_LISTS_CPU = 1
 };
 
-/* Factor on the emission of the brick faces inside a box of the world, relative to the pack (1.4). */
+/* Factor on the emission of the brick faces inside a box of the world, relative to the pack (1.4). Bricks with
+ * receivers take the weights of instances that emit in its place (HEARTH_LAMP_EMISSION). */
 typedef struct hearth_emission_scale
 {
     float box_min[3];

@@ -85,6 +85,9 @@ Status makeEmissions(hearth_scene& scene, const hearth_frame& frame)
         return usage("emissions is NULL");
     if (frame.emission_count > shared::kMaxEmissionBoxes)
         return usage("emission_count is above " + std::to_string(shared::kMaxEmissionBoxes));
+    if (frame.emission_count > 0 && scene.scene->receivers != nullptr && scene.scene->receivers->faces)
+        return usage("emissions: the bricks of the pack have receivers; weigh the emission of instances "
+                     "(HEARTH_LAMP_EMISSION) instead");
     scene.emissions.clear();
     for (uint32_t i = 0; i < frame.emission_count; ++i)
     {

@@ -107,6 +107,12 @@ void trackShadows(const Scene& scene, std::span<const InstanceMove> moves)
                                                             : scene.stream->changedGroups());
 }
 
+/// True if the frame shows the light of bricks.
+bool showsBricks(const FrameInput& input)
+{
+    return input.shading.gi || shared::viewNeedsBricks(input.shading.debug_view);
+}
+
 } // namespace
 
 Result<std::unique_ptr<Renderer>> Renderer::create(const DeviceDescription& description,
@@ -313,16 +319,30 @@ Status Renderer::createShadows(const formats::PackView& pack, const ShadowOption
     return pass->createMaps(device_, pack, options, depth, commands, scene);
 }
 
-/// Upload the atlas of a scene, and bind it.
+/// Upload the receivers of a scene, and bind the atlas of texels.
 Status Renderer::createReceivers(const formats::PackView& pack, Scene& scene)
 {
     if (!receivers_)
     {
         HEARTH_ASSIGN_OR_RETURN(receivers_, ReceiverPass::create(device_, receiver_update_));
     }
+    const auto frames = static_cast<uint32_t>(scene.frames.size());
+    if (!pack.faceAtlases().empty())
+    {
+        HEARTH_TRY(receivers_->prepareFaces(device_));
+        HEARTH_ASSIGN_OR_RETURN(scene.receivers->faces,
+                                receivers_->upload(device_, pack.faceReceivers(), frames,
+                                                   scene.bricks->lighting, scene.bricks->firstBakedWord(),
+                                                   *scene.staging));
+        scene.bricks->baked_scale = pack.faceReceivers().atlas.scale;
+    }
+    if (pack.receiverAtlases().empty())
+    {
+        scene.staging->finish();
+        return success();
+    }
     HEARTH_ASSIGN_OR_RETURN(scene.receivers->atlas,
-                            receivers_->upload(device_, pack.receivers(),
-                                               static_cast<uint32_t>(scene.frames.size()), *scene.staging));
+                            receivers_->upload(device_, pack.receivers(), frames, *scene.staging));
     scene.staging->finish();
     const ReceiverAtlas& atlas = *scene.receivers->atlas;
     forEachView(scene,
@@ -423,7 +443,7 @@ void Renderer::recordCulled(VkCommandBuffer commands, const Scene& scene, FrameT
                                            .lights = input.lights,
                                            .lamp_weights = input.lamp_weights});
     if (scene.receivers != nullptr)
-        recordReceivers(commands, scene);
+        recordReceivers(commands, scene, input);
     recordLightLists(commands, scene, view, input.shading, passes);
     if (scene.bricks != nullptr)
         recordBrickLight(commands, scene, copies, input, passes);
@@ -577,31 +597,36 @@ void Renderer::recordShadowMap(VkCommandBuffer commands, const Scene& scene, con
     shadowPass(scene).recordMap(device_, commands, layouts_, scene, view, map);
 }
 
-/// Update the texels of baked light that are due, if any are. The table of the frame leaves out the atlas, so
-/// that no other frame waits for it.
-void Renderer::recordReceivers(VkCommandBuffer commands, const Scene& scene) const
+/// Update the texels of baked light that are due, if any are, and faces if the frame shows them. The table of
+/// the frame leaves out both, so that no other frame waits for them.
+void Renderer::recordReceivers(VkCommandBuffer commands, const Scene& scene, const FrameInput& input) const
 {
-    const uint32_t groups = scene.receivers->beginUpdate();
-    if (groups == 0)
+    SceneReceivers& receivers = *scene.receivers;
+    const uint32_t groups = receivers.beginUpdate();
+    const uint32_t face_groups = showsBricks(input) ? receivers.beginFaceUpdate() : 0;
+    if ((groups | face_groups) == 0)
         return;
     const DebugLabel label(device_, commands, "update receivers");
-    receivers_->record(device_, commands, *scene.receivers->atlas, scene.tables->frame,
-                       scene.receivers->weights(), groups);
+    const uint32_t frame = scene.tables->frame;
+    if (receivers.atlas)
+        receivers_->record(device_, commands, *receivers.atlas, frame, receivers.weights(), groups);
+    if (receivers.faces)
+        receivers_->record(device_, commands, *receivers.faces, frame, receivers.weights(), face_groups,
+                           scene.bricks->is_shown);
 }
 
 /// Update a share of the brick faces, if the frame shows their light.
 void Renderer::recordBrickLight(VkCommandBuffer commands, const Scene& scene, WordCopies& copies,
                                 const FrameInput& input, PassRecorder& passes) const
 {
-    const bool is_shown = shared::viewNeedsBricks(input.shading.debug_view);
-    if (input.shading.gi || is_shown)
+    if (showsBricks(input))
     {
         const DebugLabel label(device_, commands, "light bricks");
         passes.begin(FrameStep::brick_light);
         brick_light_->record(device_, commands, scene, copy_words_, copies,
                              !input.lights.empty() || !input.lamp_weights.empty(), input.emission);
     }
-    scene.bricks->is_shown = is_shown;
+    scene.bricks->is_shown = shared::viewNeedsBricks(input.shading.debug_view);
 }
 
 /// Record after each culling phase of the frame.

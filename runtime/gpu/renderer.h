@@ -70,7 +70,7 @@ struct FrameInput
     /// Weights of lamps, which stay until they are set anew. Valid from this frame on; read while recording.
     std::span<const LampWeight> lamp_weights{};
     /// Emission scales of brick faces for a scene with bricks. All scales of this frame; read while
-    /// recording.
+    /// recording. None for bricks with receivers, which follow the weights of instances that emit (asserted).
     std::span<const EmissionScale> emission{};
     /// Times that the frame gathers the indirect light of its pixels, at least 1; for a scene with bricks.
     /// More of them take the noise out of an image that no frames before it prepare.
@@ -208,7 +208,7 @@ private:
     void recordShadowMap(VkCommandBuffer commands, const Scene& scene, const SceneView& view,
                          const ShadowCache::LayerUpdate& map, PassRecorder& passes) const;
     Status createReceivers(const formats::PackView& pack, Scene& scene);
-    void recordReceivers(VkCommandBuffer commands, const Scene& scene) const;
+    void recordReceivers(VkCommandBuffer commands, const Scene& scene, const FrameInput& input) const;
     void recordBrickLight(VkCommandBuffer commands, const Scene& scene, WordCopies& copies,
                           const FrameInput& input, PassRecorder& passes) const;
     const FramePlan& plan(const Scene& scene, const FrameTargets& targets, const FrameInput& input,

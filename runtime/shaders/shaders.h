@@ -43,6 +43,7 @@ extern const std::span<const uint32_t> cell_lights_comp;
 extern const std::span<const uint32_t> place_lists_comp;
 extern const std::span<const uint32_t> light_statistics_comp;
 extern const std::span<const uint32_t> light_faces_comp;
+extern const std::span<const uint32_t> receivers_faces_comp;
 extern const std::span<const uint32_t> receivers_update_comp;
 extern const std::span<const uint32_t> receivers_points_vert;
 extern const std::span<const uint32_t> receivers_points_frag;

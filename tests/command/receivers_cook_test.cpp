@@ -3,6 +3,7 @@
 #include "cook/json/json.h"
 #include "formats/base/double3.h"
 #include "formats/container/container_reader.h"
+#include "formats/gpu_shared/brick_codes.h"
 #include "formats/pack/pack_view.h"
 #include "sample_assets/shapes/glb_writer.h"
 #include "sample_assets/shapes/scene_parts.h"
@@ -12,6 +13,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>
@@ -126,9 +128,10 @@ protected:
                                        "-o",
                                        "room.hearth",
                                        "--visibility=off",
-                                       "--bricks=off",
                                        "--cache",
                                        folder.cacheSpec()};
+        if (std::ranges::find(options, "bricks.mode=on") == options.end())
+            words.emplace_back("--bricks=off");
         words.insert(words.end(), options.begin(), options.end());
         const ProgramEnd end = folder.run(words);
         EXPECT_EQ(end.exit_code, 0) << end.err;
@@ -224,6 +227,7 @@ TEST_F(CookReceivers, areDescribed)
     EXPECT_EQ(atlas["lamps"], 4);
     EXPECT_EQ(atlas["instances"], 3);
     EXPECT_EQ(atlas["left_out"]["animated"], 1);
+    EXPECT_EQ(atlas["faces"]["count"], 0) << "there are no bricks";
     EXPECT_LT(atlas["largest_dropped"].get<double>(), 0.03);
 
     const std::string program = std::string(HEARTH_BIN) + "/hearth";
@@ -236,6 +240,52 @@ TEST_F(CookReceivers, areDescribed)
         EXPECT_TRUE(folder.has(picture));
     }
     EXPECT_EQ(folder.run({program, "extract", "room.hearth", "--receivers", "-o", "light.csv"}).exit_code, 2);
+}
+
+/// Lamps of all faces sum to the light that the grid itself has, sign and sun included.
+TEST_F(CookReceivers, areFacesOfBricksAsWell)
+{
+    ASSERT_TRUE(samples::writeFile(folder / "lobby.glb", encodeGlb(makeLobby(true))).ok());
+    cook({"--receivers", "--set", "bricks.mode=on", "--set", "bricks.voxel_size=0.25", "--report",
+          "report.json"},
+         "lobby.glb");
+    const PackView pack = open("room.hearth");
+    const formats::ReceiverTables faces = pack.faceReceivers();
+    ASSERT_EQ(pack.faceAtlases().size(), 1u);
+    std::vector<Float3> sums(pack.brickLighting().size());
+    std::vector<double> of_sign(sums.size());
+    const std::vector<std::string> lamps = listLamps(inspect()["receivers"]);
+    EXPECT_EQ(lamps, (std::vector<std::string>{"steady ", "light lobby lamp", "instance sign"}));
+    for (const formats::ReceiverBlockRecord& block : faces.blocks)
+        for (uint32_t i = 0; i < block.texel_count; ++i)
+            for (uint32_t color = 0; color < block.color_count; ++color)
+            {
+                const uint32_t* const word = &faces.words[block.first_word + i];
+                const Float3 light = decodeWord(word[(color + 1) * block.texel_count]) * faces.atlas.scale;
+                sums[*word] += light;
+                if ((block.lamps[color / 2] >> (16 * (color % 2)) & 0xFFFF) == 2)
+                    of_sign[*word] += double{light.y};
+            }
+    size_t shining = 0;
+    for (size_t face = 0; face < sums.size(); ++face)
+    {
+        const Float3 expected = shared::decodeRadiance(pack.brickLighting()[face]);
+        for (int c = 0; c < 3; ++c)
+            ASSERT_NEAR(sums[face][c], expected[c], 0.02f * expected[c] + 1e-4f) << face;
+        const double emission = double{shared::decodeRadiance(pack.brickEmission()[face]).y};
+        if (emission < 0.1) // a lamp of a small share may be dropped
+            continue;
+        EXPECT_GE(of_sign[face], 0.97 * emission) << face;
+        ++shining;
+    }
+    EXPECT_GT(shining, 100u);
+
+    EXPECT_EQ(faultOfSchema(HEARTH_SCHEMAS "/hearth.inspect.1.json", inspect()), "");
+    EXPECT_EQ(inspect()["receivers"]["faces"]["count"], faces.atlas.texel_count);
+    const Json report = Json::parse(folder.read("report.json")).value();
+    EXPECT_EQ(report["receivers"]["atlas"]["faces"]["count"], faces.atlas.texel_count);
+    const ProgramEnd text = folder.run({std::string(HEARTH_BIN) + "/hearth", "inspect", "room.hearth"});
+    EXPECT_NE(text.out.find(" faces of bricks in rgb9e5; "), std::string::npos) << text.out;
 }
 
 TEST_F(CookReceivers, warnOfUvsThatCannotBeUsed)

@@ -19,7 +19,7 @@ LocalProbe makeProbe()
 {
     LocalProbe probe{};
     probe.position = {1, 1, -0.5f};
-    probe.irradiance = 1;
+    probe.irradiance_red = probe.irradiance_green = probe.irradiance_blue = 1;
     probe.box_min = {-2, 0, -2.5f};
     probe.box_max = {2, 3, 2.5f};
     probe.fade = 0.25f;

@@ -142,26 +142,26 @@ TEST(CookGraph, lightsBricksByTheProbeOfTheSky)
                      "{probe.part}", "-o", "{bricks.part}", "--if-needed", "--stats", "{bricks.json}"}));
 }
 
-TEST(CookGraph, bakesReceiversUnderTheProbeOfTheSky)
+TEST(CookGraph, bakesReceiversUnderTheProbeOfTheSkyWithBricks)
 {
     CookSettings settings;
     settings.sources = {"a.obj"};
     settings.output = "out.hearth";
-    settings.values_of_pack = {{"bricks.mode", {"\"off\"", ""}},
-                               {"environment.file", {"\"noon.hdr\"", ""}},
+    settings.values_of_pack = {{"environment.file", {"\"noon.hdr\"", ""}},
                                {"receivers.mode", {"\"on\"", ""}},
                                {"receivers.lights", {"3", ""}}};
     settings.values_of_source.assign(1, {{"visibility.mode", {"\"off\"", ""}}});
     const std::vector<Words> commands = getCommands(makeCookGraph(settings).value());
     EXPECT_EQ(commands.front(), (Words{"bin/hearth-import", "a.obj", "--receivers", "16", "-o",
                                        "{import.part}", "--stats", "{import.json}"}));
-    EXPECT_EQ(
-        commands.at(commands.size() - 2),
-        (Words{"bin/hearth-receivers", "{import.part}", "{clusters.part}", "{textures.part}", "--probe",
-               "{probe.part}", "-o", "{receivers.part}", "--lights", "3", "--stats", "{receivers.json}"}));
-    EXPECT_EQ(commands.back(), (Words{"bin/hearth-link", "{import.part}", "{clusters.part}", "{texels.part}",
-                                      "{skinning.part}", "--probe", "{probe.part}", "--receivers",
-                                      "{receivers.part}", "-o", "{pack.hearth}"}));
+    EXPECT_EQ(commands.at(commands.size() - 2),
+              (Words{"bin/hearth-receivers", "{import.part}", "{clusters.part}", "{textures.part}", "--probe",
+                     "{probe.part}", "--bricks", "{bricks.part}", "-o", "{receivers.part}", "--lights", "3",
+                     "--stats", "{receivers.json}"}));
+    EXPECT_EQ(commands.back(),
+              (Words{"bin/hearth-link", "{import.part}", "{clusters.part}", "{texels.part}",
+                     "{skinning.part}", "--probe", "{probe.part}", "--bricks", "{bricks.part}", "--receivers",
+                     "{receivers.part}", "-o", "{pack.hearth}"}));
 }
 
 TEST(CookGraph, linksTheProbesOfTheSkyAndOfTheScene)

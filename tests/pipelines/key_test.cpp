@@ -190,7 +190,7 @@ TEST_F(Keys, everySettingChangesThoseOfItsCookerAndItsReaders)
         {"texels", {"estimates", "budget", "texels", "link"}},
         {"visibility", {"visibility", "link"}},
         {"probe", {"probe", "bricks", "receivers", "reflections", "link"}},
-        {"bricks", {"bricks", "link"}},
+        {"bricks", {"bricks", "receivers", "link"}},
         {"receivers", {"receivers", "link"}},
         {"reflections", {"reflections", "link"}}};
     for (const cookers::Cooker& cooker : cookers::allCookers())
@@ -229,7 +229,7 @@ TEST_F(Keys, flagsAddTheirCookers)
                                      "reflections", "link"}));
     other = settings;
     other.values_of_pack["bricks.mode"].text = "\"off\"";
-    EXPECT_EQ(changed(before, keys(other)), (std::set<std::string>{"bricks", "link"}));
+    EXPECT_EQ(changed(before, keys(other)), (std::set<std::string>{"bricks", "link", "receivers"}));
     other = settings;
     other.values_of_pack["receivers.mode"].text = "\"off\"";
     EXPECT_EQ(changed(before, keys(other)), kOfSource) << "import makes UVs for them";

@@ -1,7 +1,10 @@
 // Draws metal and paint in a room with a local probe, beside paths through the room.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/bricks/light/scene_light.h"
+#include "cook/bricks/light/settled_light.h"
+#include "cook/bricks/voxels/grid_part.h"
 #include "cook/probes/probe.h"
+#include "cook/receivers/select/atlas.h"
 #include "cook/reflections/capture/capture.h"
 #include "tests/environments/environments.h"
 #include "tests/reference/flip.h"
@@ -148,6 +151,62 @@ protected:
         return draw(*scene, camera, {.width = side, .height = side});
     }
 
+    /// Cook bricks of the scene as it is, and light them; the light of each lamp is apart as well.
+    void setBricks()
+    {
+        const formats::PackView pack = test_.build();
+        const std::vector<bricks::SourceParts> sources{{pack, pack, pack}};
+        const bricks::StaticScene scene = bricks::collectStaticScene(sources).value();
+        bricks::GridSettings settings;
+        settings.voxel_size = 0.1;
+        settings.seeds = {kAt};
+        const bricks::BrickTables tables = bricks::cookGrid(scene, settings).value().tables;
+        const bricks::SettledLight light =
+            bricks::settleLight(bricks::makeBrickView(tables), bricks::makeSceneLighting(scene));
+        PackModel& model = test_.model();
+        bricks::LampSources lamp_sources;
+        model.receiver_lamps = {{0, 0}};
+        for (uint32_t i = 0; i < pack.lights().size(); ++i)
+        {
+            model.receiver_lamps.push_back({static_cast<uint32_t>(formats::ReceiverLampKind::light), i});
+            lamp_sources.lamps_of_lights.push_back(lamp_sources.count++);
+        }
+        const std::vector<Float3> lamps = bricks::settleLamps(bricks::makeBrickView(tables),
+                                                              bricks::makeSceneLighting(scene), lamp_sources);
+        const receivers::Atlas faces =
+            receivers::packFaces(model.receiver_lamps, lamps, tables.grid.face_count, {});
+        model.face_atlases = {faces.record};
+        model.face_blocks = faces.blocks;
+        model.face_words = faces.words;
+        model.brick_grids = {tables.grid};
+        model.bricks = {tables.grid,    tables.groups,   tables.bricks, tables.opacity,   tables.albedo,
+                        tables.normals, tables.emission, light.codes,   tables.reflectors};
+    }
+
+    /// Return the mean linear colour of an instance's pixels, after light has been gathered for some frames.
+    reference::Double3 measureColor(const gpu::Scene& scene, uint32_t instance, const shared::Camera& camera,
+                                    bool gi, std::span<const gpu::LampWeight> weights = {})
+    {
+        gpu::FrameTargets targets = makeTargets(kSamples * kSide, kSamples * kSide);
+        Image image;
+        for (int frame = 0; frame < (gi ? 24 : 1); ++frame)
+            image = draw(scene, targets, camera,
+                         {.width = kSamples * kSide,
+                          .height = kSamples * kSide,
+                          .lamp_weights = frame == 0 ? weights : std::span<const gpu::LampWeight>{},
+                          .gi = gi});
+        const auto seen = image.seen();
+        reference::Double3 sum;
+        double pixels = 0;
+        for (size_t i = 0; i < seen.size(); ++i)
+            if (seen[i][0] == instance)
+            {
+                sum += readRadiance(image.color[i]);
+                pixels += 1;
+            }
+        return sum / pixels;
+    }
+
     /// Picture of all paths, and of each half of them: their difference is the noise of the oracle.
     struct Traced
     {
@@ -255,6 +314,76 @@ TEST_F(LocalProbeImageTest, ballAtTheProbeLooksAsPathsShowIt)
                                     .z_near = look.radius / 3};
         EXPECT_LT(compare(std::string("ball-") + look.name, ball, drawScene(camera), trace(camera)),
                   look.max_flip);
+    }
+}
+
+/// Frames with the light of bricks reflect what frames without it have from the probe, in a pack with both.
+TEST_F(LocalProbeImageTest, agreesWithTheLobesOfBricks)
+{
+    addRoom();
+    setProbes({capture(kAt)});
+    setBricks();
+    const TestScene room = test_;
+    for (const auto& [metallic, roughness] :
+         {std::pair(1.0f, 0.05f), std::pair(1.0f, 0.3f), std::pair(1.0f, 0.6f), std::pair(0.0f, 0.9f)})
+    {
+        test_ = room;
+        const uint32_t ball = addBall(0.15f, kAt, addPaint({0.9f, 0.8f, 0.6f}, metallic, roughness));
+        const formats::PackView pack = test_.build();
+        const auto scene = upload(pack);
+        const shared::Camera camera{
+            .position = kAt + Float3{0.5f, 0.2f, 0.6f}, .target = kAt, .y_fov_rad = 0.5f, .z_near = 0.05f};
+        const reference::Double3 by_probe = measureColor(*scene, ball, camera, false);
+        const reference::Double3 by_bricks = measureColor(*scene, ball, camera, true);
+        std::printf("metallic %.0f, roughness %.2f: bricks over probe %.3f %.3f %.3f\n", double{metallic},
+                    double{roughness}, by_bricks.x / by_probe.x, by_bricks.y / by_probe.y,
+                    by_bricks.z / by_probe.z);
+        EXPECT_GT(by_probe.x, 0.05);
+    }
+}
+
+/// A probe shows the room under all lamps; its light follows theirs, as a probe would show it that was
+/// captured under the dimmed lamps.
+TEST_F(LocalProbeImageTest, followsTheWeightsOfLamps)
+{
+    addRoom();
+    formats::LightRecord red = light(LightType::point, {-1.2f, 1, -1.5f}, {0, -1, 0}, 6);
+    red.color = {1, 0.2f, 0.1f};
+    test_.addLight(red);
+    for (formats::LightRecord& lamp : test_.model().lights)
+        lamp.intensity *= 0.3f; // so dim that there is no exposure, which would follow them, too
+    setProbes({capture(kAt)});
+    setBricks();
+    const TestScene room = test_;
+    const shared::Camera camera{
+        .position = kAt + Float3{0.5f, 0.2f, 0.6f}, .target = kAt, .y_fov_rad = 0.5f, .z_near = 0.05f};
+    const auto measure = [&](std::span<const float> weights, bool captures)
+    {
+        test_ = room;
+        if (captures)
+        {
+            for (size_t i = 0; i < weights.size(); ++i)
+                test_.model().lights[i].intensity *= weights[i];
+            setProbes({capture(kAt)});
+        }
+        const uint32_t ball = addBall(0.15f, kAt, addPaint({0.9f, 0.9f, 0.9f}, 1, 0.9f));
+        const formats::PackView pack = test_.build();
+        const auto scene = upload(pack);
+        std::vector<gpu::LampWeight> lamps;
+        for (uint32_t i = 0; i < weights.size() && !captures; ++i)
+            lamps.push_back(gpu::weighLight(*scene, i, {weights[i], weights[i], weights[i]}).value());
+        return measureColor(*scene, ball, camera, false, lamps);
+    };
+    const reference::Double3 all = measure({}, false);
+    for (const std::array<float, 2>& weights : {std::array{0.1f, 1.0f}, std::array{1.0f, 0.05f}})
+    {
+        const reference::Double3 weighed = measure(weights, false), captured = measure(weights, true);
+        std::printf("weights %.2f, %.2f: %.3f %.3f %.3f of a new capture; unchanged: %.3f %.3f %.3f\n",
+                    double{weights[0]}, double{weights[1]}, weighed.x / captured.x, weighed.y / captured.y,
+                    weighed.z / captured.z, all.x / captured.x, all.y / captured.y, all.z / captured.z);
+        EXPECT_NEAR(weighed.x / captured.x, 1, 0.1);
+        EXPECT_NEAR(weighed.y / captured.y, 1, 0.1);
+        EXPECT_NEAR(weighed.z / captured.z, 1, 0.1);
     }
 }
 

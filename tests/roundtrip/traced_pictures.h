@@ -25,24 +25,29 @@ reference::Image showRadiance(const Radiance& radiance, uint32_t side)
     return image;
 }
 
+/// Return the radiance that a drawn colour shows, by the inverse of the filmic curve.
+inline reference::Double3 readRadiance(uint32_t color)
+{
+    const auto radiance = [&](int index)
+    {
+        return reference::invertFilmic(
+            reference::linearFromSrgb(std::min(channel(color, index) / 255.0, 254.5 / 255)));
+    };
+    return {radiance(0), radiance(1), radiance(2)};
+}
+
 /// Return a square image whose pixels show the mean radiance of a drawn one's samples, as pixels of paths do:
 /// the mean of what samples show is another one, as the filmic curve bends.
 /// samples  of a pixel, along each axis
 inline reference::Image averageSamples(const Image& drawn, uint32_t side, uint32_t samples)
 {
-    const auto radiance = [](int code)
-    { return reference::invertFilmic(reference::linearFromSrgb(std::min(code / 255.0, 254.5 / 255))); };
     std::vector<reference::Double3> means;
     for (uint32_t i = 0; i < side * side; ++i)
     {
         reference::Double3 sum;
         for (uint32_t sample = 0; sample < samples * samples; ++sample)
-        {
-            const uint32_t color =
-                drawn.at(samples * (i % side) + sample % samples, samples * (i / side) + sample / samples);
-            sum += reference::Double3{radiance(channel(color, 0)), radiance(channel(color, 1)),
-                                      radiance(channel(color, 2))};
-        }
+            sum += readRadiance(
+                drawn.at(samples * (i % side) + sample % samples, samples * (i / side) + sample / samples));
         means.push_back(sum / (samples * samples));
     }
     return showRadiance(means, side);

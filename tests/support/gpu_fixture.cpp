@@ -181,6 +181,7 @@ Image GpuTest::draw(const gpu::Scene& scene, gpu::FrameTargets& targets, const s
                                 .shadow_spheres = options.shadow_spheres,
                                 .lights = options.lights,
                                 .daylight = options.daylight,
+                                .lamp_weights = options.lamp_weights,
                                 .emission = options.emission};
     const Status status = host().run(
         [&](VkCommandBuffer commands)

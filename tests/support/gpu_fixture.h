@@ -49,6 +49,7 @@ struct DrawOptions
     std::span<const gpu::InstancePose> poses{};
     std::span<const gpu::ShadowSphere> shadow_spheres{};
     std::span<const gpu::LightChange> lights{};
+    std::span<const gpu::LampWeight> lamp_weights{};
     const gpu::DaylightChange* daylight = nullptr;
     std::span<const gpu::EmissionScale> emission{};
     bool gi = true;

@@ -329,6 +329,15 @@ void addBricks(PackModel& pack)
     pack.brick_grids = {pack.bricks.grid};
 }
 
+/// Light of the lamps of receivers at three faces of the bricks.
+void addFaceReceivers(PackModel& pack)
+{
+    const auto faces = static_cast<uint32_t>(pack.bricks.albedo.size());
+    pack.face_blocks = {{0, 2, 2, 0, {1u << 16, 0, 0, 0, 0, 0}}, {6, 1, 1, 1, {2, 0, 0, 0, 0, 0}}};
+    pack.face_words = {0, 2, 15u << 27 | 256, 15u << 27 | 128, 14u << 27 | 300, 0, 1, 16u << 27 | 511};
+    pack.face_atlases = {{faces, 1, 0, 2, 3, 0, 2, 8, 3, {1, 1, 0, 0}, {}}};
+}
+
 /// Source of everything. The strip reaches from 0 to 4 along x, the triangle's joints to 1.5.
 void addAsset(PackModel& pack)
 {
@@ -660,6 +669,9 @@ std::vector<ChunkImage> PackModel::chunks(bool compressed) const
     table(kChunkReceiverRects, receiver_rects);
     table(kChunkReceiverBlocks, receiver_blocks);
     table(kChunkReceiverWords, receiver_words);
+    table(kChunkFaceReceivers, face_atlases);
+    table(kChunkFaceBlocks, face_blocks);
+    table(kChunkFaceWords, face_words);
     table(kChunkSurroundings, surroundings);
     table(kChunkRadianceTransfers, radiance_transfers);
     table(kChunkBrickGrid, brick_grids);
@@ -695,6 +707,7 @@ PackModel smallPack()
     addReceivers(pack);
     addSurroundings(pack);
     addBricks(pack);
+    addFaceReceivers(pack);
     addAsset(pack);
     addExtras(pack);
     pack.sealPages();

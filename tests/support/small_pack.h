@@ -66,6 +66,9 @@ struct PackModel
     std::vector<formats::ReceiverRectRecord> receiver_rects;
     std::vector<formats::ReceiverBlockRecord> receiver_blocks;
     std::vector<uint32_t> receiver_words;
+    std::vector<formats::ReceiverAtlasRecord> face_atlases;
+    std::vector<formats::ReceiverBlockRecord> face_blocks;
+    std::vector<uint32_t> face_words;
     std::vector<formats::SurroundingsRecord> surroundings;
     std::vector<formats::RadianceTransferRecord> radiance_transfers;
     std::vector<uint32_t> instance_meshes; ///< parts only

@@ -119,7 +119,9 @@ void writeBricksPart(const PackModel& pack, const std::string& path)
 
 void writeReceiversPart(const PackModel& pack, const std::string& path)
 {
-    writeChunks(pack, kReceiverChunks, path);
+    std::vector<uint32_t> chunks(kReceiverChunks.begin(), kReceiverChunks.end());
+    chunks.insert(chunks.end(), kFaceReceiverChunks.begin(), kFaceReceiverChunks.end());
+    writeChunks(pack, chunks, path);
 }
 
 void writePackFile(const PackModel& pack, const std::string& path)

@@ -6,6 +6,8 @@
 #include "formats/gpu_shared/brick_rays.h"
 
 #include <algorithm>
+#include <map>
+#include <optional>
 #include <tbb/parallel_for.h>
 
 namespace hearth::bricks
@@ -149,42 +151,119 @@ double estimateEmissiveArea(const StaticScene& scene, const Clusters& clusters, 
     return area;
 }
 
+/// Light of all emissive clusters.
+struct SentLights
+{
+    Clusters clusters;
+    RayScene rays;
+    std::vector<SentLight> sent; ///< [clusters.emissive]
+};
+
+/// error  metres in world space: LOD error allowed for the clusters
+Result<std::optional<SentLights>> sendLights(const StaticScene& scene, const GridFrame& frame, double error,
+                                             const BrickMasks& masks)
+{
+    if (!hasEmissiveMaterial(scene))
+        return std::optional<SentLights>();
+    Clusters clusters = findClusters(scene, frame, error);
+    if (clusters.emissive.empty())
+        return std::optional<SentLights>();
+    HEARTH_ASSIGN_OR_RETURN(RayScene rays, RayScene::build(scene, clusters.nearby, frame));
+    const double area = estimateEmissiveArea(scene, clusters, frame);
+    const EmissionPaths paths(rays, masks, std::min(kPathsPerVoxelArea, kMaxPaths / std::max(area, 1.0)));
+    std::vector<std::optional<Result<SentLight>>> results(clusters.emissive.size());
+    tbb::parallel_for(size_t{0}, results.size(),
+                      [&](size_t i) { results[i] = sendFrom(scene, clusters.emissive[i], frame, paths); });
+    std::vector<SentLight> sent;
+    for (std::optional<Result<SentLight>>& result : results)
+    {
+        if (!result->ok())
+            return result->error();
+        sent.push_back(std::move(**result));
+    }
+    return std::optional<SentLights>(std::in_place, std::move(clusters), std::move(rays), std::move(sent));
+}
+
+/// Light that an instance sends out by a voxel.
+struct InstanceFlux
+{
+    uint32_t instance;
+    Double3 flux;
+};
+
+/// Sum the light that leaves each voxel by instance. Instances of a voxel are in the order of their clusters.
+std::map<std::pair<uint32_t, uint32_t>, std::vector<InstanceFlux>> sumByVoxel(const SentLights& lights)
+{
+    std::map<std::pair<uint32_t, uint32_t>, std::vector<InstanceFlux>> voxels;
+    for (size_t i = 0; i < lights.sent.size(); ++i)
+        for (const LeavingLight& leaving : lights.sent[i].lights.lights())
+        {
+            std::vector<InstanceFlux>& fluxes = voxels[{leaving.voxel.brick, leaving.voxel.bit}];
+            const uint32_t instance = lights.clusters.emissive[i].instance;
+            auto at = std::ranges::find(fluxes, instance, &InstanceFlux::instance);
+            if (at == fluxes.end())
+                at = fluxes.insert(fluxes.end(), {instance, {}});
+            at->flux = at->flux + leaving.flux;
+        }
+    return voxels;
+}
+
+Float3 divideChannels(Double3 part, Double3 whole)
+{
+    const auto ratio = [](double a, double b) { return b > 0 ? static_cast<float>(a / b) : 0.0f; };
+    return {ratio(part.x, whole.x), ratio(part.y, whole.y), ratio(part.z, whole.z)};
+}
+
 } // namespace
 
 Result<EmittedFlux> traceEmission(const StaticScene& scene, CookedGrid& grid)
 {
     EmittedFlux total;
-    if (!hasEmissiveMaterial(scene))
-        return total;
-    const GridFrame& frame = grid.statistics.frame;
-    const Clusters clusters = findClusters(scene, frame, grid.statistics.error);
-    if (clusters.emissive.empty())
-        return total;
-    HEARTH_ASSIGN_OR_RETURN(const RayScene rays, RayScene::build(scene, clusters.nearby, frame));
     BrickTables& tables = grid.tables;
-    const double area = estimateEmissiveArea(scene, clusters, frame);
-    const EmissionPaths paths(rays, tables.masks(),
-                              std::min(kPathsPerVoxelArea, kMaxPaths / std::max(area, 1.0)));
-    std::vector<std::optional<Result<SentLight>>> sent(clusters.emissive.size());
-    tbb::parallel_for(size_t{0}, sent.size(),
-                      [&](size_t i) { sent[i] = sendFrom(scene, clusters.emissive[i], frame, paths); });
+    HEARTH_ASSIGN_OR_RETURN(const std::optional<SentLights> emitted,
+                            sendLights(scene, grid.statistics.frame, grid.statistics.error, tables.masks()));
+    if (!emitted)
+        return total;
     LeavingLights lights;
-    for (const std::optional<Result<SentLight>>& light : sent)
+    for (const SentLight& light : emitted->sent)
     {
-        if (!light->ok())
-            return light->error();
-        total.sent = total.sent + (*light)->flux;
-        for (const LeavingLight& leaving : (*light)->lights.lights())
+        total.sent = total.sent + light.flux;
+        for (const LeavingLight& leaving : light.lights.lights())
         {
             lights.add(leaving);
             total.credited = total.credited + leaving.flux;
         }
     }
-    const EmissionFit fit(rays, lights, tables);
+    const EmissionFit fit(emitted->rays, lights, tables);
     tbb::parallel_for(size_t{0}, lights.lights().size(),
                       [&](size_t i) { fit.setEmission(lights.lights()[i]); });
     tables.lighting = tables.emission;
     return total;
+}
+
+Result<std::vector<EmissionShare>> findEmissionShares(const StaticScene& scene, const BrickView& bricks)
+{
+    const BrickGrid& grid = bricks.masks.grid;
+    const GridFrame frame{grid.origin, grid.voxel_size, {grid.voxels_x, grid.voxels_y, grid.voxels_z}};
+    HEARTH_ASSIGN_OR_RETURN(
+        const std::optional<SentLights> emitted,
+        sendLights(scene, frame, GridSettings{}.error_share * double{grid.voxel_size}, bricks.masks));
+    std::vector<EmissionShare> shares;
+    if (!emitted)
+        return shares;
+    for (const auto& [voxel, fluxes] : sumByVoxel(*emitted))
+    {
+        Double3 sum{};
+        for (const InstanceFlux& flux : fluxes)
+            sum = sum + flux.flux;
+        for (uint32_t side = 0; side < kFaces; ++side)
+            if (const uint32_t face = brickFace(bricks.masks.bricks[voxel.first], voxel.second, side);
+                face != kNoFace)
+                for (const InstanceFlux& flux : fluxes)
+                    shares.push_back({face, flux.instance, divideChannels(flux.flux, sum)});
+    }
+    std::ranges::sort(shares, {}, [](const EmissionShare& s) { return std::pair(s.face, s.instance); });
+    return shares;
 }
 
 } // namespace hearth::bricks

@@ -8,7 +8,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/bricks/grid/brick_view.h"
 #include "cook/bricks/voxels/grid_part.h"
+
+#include <vector>
 
 namespace hearth::bricks
 {
@@ -24,5 +27,19 @@ struct EmittedFlux
 /// material the grid does not change. The result does not depend on the number of threads.
 /// errors: errors of decoding pages
 Result<EmittedFlux> traceEmission(const StaticScene& scene, CookedGrid& grid);
+
+/// Part of a face's emission that an instance causes.
+struct EmissionShare
+{
+    uint32_t face;
+    uint32_t instance; ///< of the static scene
+    Float3 share; ///< by channel; those of a face's instances sum to 1, or 0 where none sends the channel
+};
+
+/// Find which instances the emission of faces is from, by the paths of traceEmission. Sorted by face, then
+/// instance; empty without an emissive material. The result does not depend on the number of threads.
+/// bricks  grid that was cooked from the scene
+/// errors: errors of decoding pages
+Result<std::vector<EmissionShare>> findEmissionShares(const StaticScene& scene, const BrickView& bricks);
 
 } // namespace hearth::bricks

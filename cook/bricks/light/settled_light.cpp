@@ -6,6 +6,7 @@
 #include "formats/base/assert.h"
 
 #include <algorithm>
+#include <array>
 #include <tbb/parallel_for.h>
 
 namespace hearth::bricks
@@ -35,11 +36,14 @@ struct Term
     float factor;
 };
 
-/// Equation of the faces first to first + count - 1:
+/// Lamps that are swept together: their light of a face is one and a half cache lines.
+constexpr uint32_t kLampsAtOnce = 8;
+
+/// Equation of the faces first to first + count - 1, for each lamp:
 ///     radiance = constant + albedo * sum of (factor * radiance of its terms)
 struct Block
 {
-    std::vector<Float3> constants; ///< of each face: emission, and what lights and sky add
+    std::vector<Float3> constants; ///< [faces][lamps]: emission, and what lights and sky add
     std::vector<Float3> albedos;
     std::vector<uint32_t> ends; ///< of each face's terms
     std::vector<Term> terms;
@@ -70,9 +74,11 @@ float forEachMetFace(const BrickScene& scene, BrickRay ray, const Visit& visit)
 class EquationMaker
 {
 public:
-    EquationMaker(const BrickView& bricks, const SceneLighting& lighting, uint32_t rays)
+    EquationMaker(const BrickView& bricks, const SceneLighting& lighting, const LampSources& sources,
+                  uint32_t rays)
         : bricks_(bricks),
           lighting_(lighting),
+          sources_(sources),
           rays_(rays),
           table_(bricks.masks),
           places_(faceLocations(bricks.masks))
@@ -106,7 +112,7 @@ private:
     {
         const Float3 albedo = decodeAlbedo(bricks_.albedo[face]);
         const float part = 1.0f / static_cast<float>(rays_);
-        Float3 irradiance;
+        std::vector<Float3> irradiances(sources_.count);
         if (start.is_interior == 0)
             for (const BrickRay& ray : rays)
             {
@@ -115,28 +121,49 @@ private:
                                                          block.terms.push_back({met, share * part});
                                                      });
                 if (through > 0)
-                    irradiance += skyRadiance(lighting_.sky, ray.direction) * (through * part);
+                    irradiances[0] += skyRadiance(lighting_.sky, ray.direction) * (through * part);
             }
-        for (const Light& light : lighting_.lights)
-            irradiance += brickDirect(scene(), start, light);
-        block.constants.push_back(brickOutgoingRadiance(
-            decodeRadiance(bricks_.emission[face]) * lighting_.exposure, albedo, irradiance));
+        for (size_t i = 0; i < lighting_.lights.size(); ++i)
+            irradiances[sources_.lamps_of_lights[i]] += brickDirect(scene(), start, lighting_.lights[i]);
+        const std::vector<Float3> emissions = splitEmission(face);
+        for (uint32_t lamp = 0; lamp < sources_.count; ++lamp)
+            block.constants.push_back(brickOutgoingRadiance(emissions[lamp], albedo, irradiances[lamp]));
         block.albedos.push_back(brickOutgoingRadiance({}, albedo, {1, 1, 1}));
         block.ends.push_back(static_cast<uint32_t>(block.terms.size()));
+    }
+
+    /// Return the emission of a face for each lamp.
+    std::vector<Float3> splitEmission(size_t face) const
+    {
+        const Float3 all = decodeRadiance(bricks_.emission[face]) * lighting_.exposure;
+        std::vector<Float3> emissions(sources_.count);
+        emissions[0] = all;
+        for (auto i = std::ranges::lower_bound(sources_.emissions, face, {}, &LampEmission::face);
+             i != sources_.emissions.end() && i->face == face; ++i)
+        {
+            emissions[i->lamp] += all * i->share;
+            const Float3 rest = emissions[0] - all * i->share;
+            emissions[0] = {std::max(rest.x, 0.0f), std::max(rest.y, 0.0f), std::max(rest.z, 0.0f)};
+        }
+        return emissions;
     }
 
     BrickScene scene() const { return {bricks_.masks, bricks_.opacity, {}}; }
 
     const BrickView& bricks_;
     const SceneLighting& lighting_;
+    const LampSources& sources_;
     uint32_t rays_;
     MarchTable table_;
     std::vector<FaceLocation> places_;
 };
 
-std::vector<Block> makeEquations(const BrickView& bricks, const SceneLighting& lighting, uint32_t rays)
+std::vector<Block> makeEquations(const BrickView& bricks, const SceneLighting& lighting,
+                                 const LampSources& sources, uint32_t rays)
 {
-    const EquationMaker maker(bricks, lighting, rays);
+    HEARTH_ASSERT(rays > 0 && sources.count > 0);
+    HEARTH_ASSERT(sources.lamps_of_lights.size() == lighting.lights.size());
+    const EquationMaker maker(bricks, lighting, sources, rays);
     const size_t faces = bricks.albedo.size();
     std::vector<Block> blocks((faces + kFacesPerSum - 1) / kFacesPerSum);
     tbb::parallel_for(size_t{0}, blocks.size(),
@@ -151,58 +178,118 @@ struct Change
     double light = 0, change = 0;
 };
 
-/// Sweep over a block's faces in place: they see each other's new light, and the other blocks' old light.
-/// now  light of the block's faces
-Change sweep(const Block& block, size_t first, std::span<const Float3> before, std::span<Float3> now)
+/// Some lamps of all: their light in a sweep.
+struct LampRange
 {
-    Change sum;
+    uint32_t first, count; ///< count at most kLampsAtOnce
+    uint32_t of;           ///< number of all lamps
+};
+
+using Changes = std::array<Change, kLampsAtOnce>;
+
+/// Sweep over a block's faces in place: they see each other's new light, and the other blocks' old light.
+/// now  [faces][lamps.count]: light of the block's faces
+Changes sweep(const Block& block, size_t first, const LampRange& lamps, std::span<const Float3> before,
+              std::span<Float3> now)
+{
+    Changes sums;
     size_t term = 0;
-    for (size_t i = 0; i < now.size(); ++i)
+    for (size_t i = 0; i < block.albedos.size(); ++i)
     {
-        Float3 irradiance;
+        std::array<Float3, kLampsAtOnce> irradiances{};
         for (; term < block.ends[i]; ++term)
         {
             const auto [face, factor] = block.terms[term];
-            const bool is_own = face >= first && face < first + now.size();
-            irradiance += (is_own ? now[face - first] : before[face]) * factor;
+            const bool is_own = face >= first && face < first + block.albedos.size();
+            const Float3* const met =
+                is_own ? &now[(face - first) * lamps.count] : &before[size_t{face} * lamps.count];
+            for (uint32_t lamp = 0; lamp < lamps.count; ++lamp)
+                irradiances[lamp] += met[lamp] * factor;
         }
-        const Float3 next = block.constants[i] + block.albedos[i] * irradiance;
-        const Float3 change = next - now[i];
-        sum.change += std::abs(change.x) + std::abs(change.y) + std::abs(change.z);
-        sum.light += next.x + next.y + next.z;
-        now[i] = next;
+        for (uint32_t lamp = 0; lamp < lamps.count; ++lamp)
+        {
+            const Float3 next =
+                block.constants[i * lamps.of + lamps.first + lamp] + block.albedos[i] * irradiances[lamp];
+            Float3& old = now[i * lamps.count + lamp];
+            const Float3 change = next - old;
+            sums[lamp].change += std::abs(change.x) + std::abs(change.y) + std::abs(change.z);
+            sums[lamp].light += next.x + next.y + next.z;
+            old = next;
+        }
     }
-    return sum;
+    return sums;
+}
+
+/// Return true if the light of no lamp changes any more, by the changes of all blocks.
+bool hasSettled(std::span<const Changes> changes, uint32_t lamps)
+{
+    for (uint32_t lamp = 0; lamp < lamps; ++lamp)
+    {
+        Change sum;
+        for (const Changes& change : changes)
+            sum = {sum.light + change[lamp].light, sum.change + change[lamp].change};
+        if (sum.change > kSettledChange * sum.light)
+            return false;
+    }
+    return true;
+}
+
+struct Settled
+{
+    std::vector<Float3> light; ///< [faces][lamps of the range]
+    uint32_t sweeps = 0;
+};
+
+Settled settle(std::span<const Block> blocks, size_t faces, const LampRange& lamps)
+{
+    Settled settled{.light = std::vector<Float3>(faces * lamps.count)};
+    std::vector<Float3> before(settled.light.size());
+    std::vector<Changes> changes(blocks.size());
+    do
+    {
+        tbb::parallel_for(size_t{0}, blocks.size(),
+                          [&](size_t i)
+                          {
+                              const size_t first = i * kFacesPerSum;
+                              changes[i] = sweep(blocks[i], first, lamps, before,
+                                                 std::span(settled.light).subspan(first * lamps.count));
+                          });
+        before = settled.light;
+        ++settled.sweeps;
+    } while (settled.sweeps < kMaxSweeps && !hasSettled(changes, lamps.count));
+    return settled;
 }
 
 } // namespace
 
 SettledLight settleLight(const BrickView& bricks, const SceneLighting& lighting, uint32_t rays)
 {
-    HEARTH_ASSERT(rays > 0);
-    const std::vector<Block> blocks = makeEquations(bricks, lighting, rays);
-    std::vector<Float3> before(bricks.albedo.size()), now(before.size());
-    std::vector<Change> changes(blocks.size());
-    SettledLight settled;
-    for (Change sum{0, 1}; settled.sweeps < kMaxSweeps && sum.change > kSettledChange * sum.light;)
+    const LampSources all{
+        .count = 1, .lamps_of_lights = std::vector<uint32_t>(lighting.lights.size()), .emissions = {}};
+    const std::vector<Block> blocks = makeEquations(bricks, lighting, all, rays);
+    const Settled settled = settle(blocks, bricks.albedo.size(), {0, 1, 1});
+    SettledLight light{.codes = {}, .sweeps = settled.sweeps};
+    light.codes.reserve(settled.light.size());
+    for (const Float3 radiance : settled.light)
+        light.codes.push_back(encodeRadiance(radiance));
+    return light;
+}
+
+std::vector<Float3> settleLamps(const BrickView& bricks, const SceneLighting& lighting,
+                                const LampSources& sources, uint32_t rays)
+{
+    const std::vector<Block> blocks = makeEquations(bricks, lighting, sources, rays);
+    const size_t faces = bricks.albedo.size();
+    std::vector<Float3> light(faces * sources.count);
+    for (uint32_t first = 0; first < sources.count; first += kLampsAtOnce)
     {
-        tbb::parallel_for(size_t{0}, blocks.size(),
-                          [&](size_t i)
-                          {
-                              const size_t first = i * kFacesPerSum;
-                              changes[i] = sweep(blocks[i], first, before,
-                                                 std::span(now).subspan(first, blocks[i].constants.size()));
-                          });
-        before = now;
-        sum = {};
-        for (const Change& change : changes)
-            sum = {sum.light + change.light, sum.change + change.change};
-        ++settled.sweeps;
+        const LampRange range{first, std::min(kLampsAtOnce, sources.count - first), sources.count};
+        const Settled settled = settle(blocks, faces, range);
+        for (size_t face = 0; face < faces; ++face)
+            std::copy_n(settled.light.begin() + static_cast<ptrdiff_t>(face * range.count), range.count,
+                        light.begin() + static_cast<ptrdiff_t>(face * sources.count + first));
     }
-    settled.codes.reserve(now.size());
-    for (const Float3 radiance : now)
-        settled.codes.push_back(encodeRadiance(radiance));
-    return settled;
+    return light;
 }
 
 } // namespace hearth::bricks

@@ -7,7 +7,7 @@
 namespace hearth::receivers
 {
 
-/// Write the part: chunks RCVR to RCVW, and META. Without an atlas META says why there is none.
+/// Write the part: the chunks of receivers, and META. Without receivers META says why there is none.
 /// errors: cannot_write
 Status writeReceiversPart(const std::string& path, const CookedReceivers& cooked,
                           const CookSettings& settings);

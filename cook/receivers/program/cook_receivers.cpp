@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/receivers/program/cook_receivers.h"
 
-#include "cook/receivers/scene/receiver_scene.h"
+#include "cook/receivers/scene/face_light.h"
 #include "cook/tools/source_name.h"
 #include "formats/base/index.h"
 
@@ -16,68 +16,15 @@ using namespace formats;
 namespace
 {
 
-/// First record of each source in the tables of the pack, where the records of all sources follow each other.
-struct PackOffsets
-{
-    std::vector<uint32_t> instances;
-
-    explicit PackOffsets(const bricks::StaticScene& scene)
-    {
-        uint32_t next = 0;
-        for (const bricks::SourceParts& source : scene.sources)
-        {
-            instances.push_back(next);
-            next += static_cast<uint32_t>(source.scene.instances().size());
-        }
-    }
-
-    /// Return the instance of the pack for one of the static scene.
-    uint32_t findInstance(const bricks::StaticScene& scene, uint32_t number) const
-    {
-        const bricks::StaticInstance& instance = scene.instances[number];
-        return instances[instance.source] + instance.record;
-    }
-};
-
-/// Lamps of the atlas, and the baked lights that each of them sums.
-struct LampTable
-{
-    std::vector<ReceiverLampRecord> records;
-    std::vector<std::vector<size_t>> lights;
-
-    void add(ReceiverLampKind kind, uint32_t index, std::vector<size_t> baked)
-    {
-        records.push_back({static_cast<uint32_t>(kind), index});
-        lights.push_back(std::move(baked));
-    }
-};
-
-LampTable makeLampTable(const bricks::StaticScene& scene, const ReceiverScene& receivers,
-                        const PackOffsets& offsets)
-{
-    LampTable lamps;
-    const size_t first_mesh_light = receivers.bake.lamps.size();
-    std::vector<size_t> steady{receivers.bake.lightCount() - 1};
-    if (receivers.has_default_sun)
-        steady.push_back(0);
-    lamps.add(ReceiverLampKind::steady, 0, std::move(steady));
-    if (!receivers.has_default_sun)
-        for (uint32_t i = 0; i < first_mesh_light; ++i)
-            lamps.add(ReceiverLampKind::light, i, {i});
-    for (size_t i = 0; i < receivers.mesh_light_instances.size(); ++i)
-        lamps.add(ReceiverLampKind::mesh_light,
-                  offsets.findInstance(scene, receivers.mesh_light_instances[i]), {first_mesh_light + i});
-    return lamps;
-}
-
-std::vector<ReceiverRectRecord> makeRects(const bricks::StaticScene& scene, const ReceiverScene& receivers,
-                                          const PackOffsets& offsets, const BakedReceivers& baked)
+std::vector<ReceiverRectRecord> makeRects(const ReceiverScene& receivers,
+                                          std::span<const uint32_t> pack_instances,
+                                          const BakedReceivers& baked)
 {
     std::vector<ReceiverRectRecord> rects;
     for (uint32_t i = 0; i < baked.rectangles.size(); ++i)
         if (const InstanceRectangle& rectangle = baked.rectangles[i]; rectangle.size.width > 0)
-            rects.push_back({offsets.findInstance(scene, i), rectangle.place.x, rectangle.place.y,
-                             rectangle.size.width, rectangle.size.height, receivers.uv_sets[i]});
+            rects.push_back({pack_instances[i], rectangle.place.x, rectangle.place.y, rectangle.size.width,
+                             rectangle.size.height, receivers.uv_sets[i]});
     return rects;
 }
 
@@ -147,22 +94,22 @@ Error makeTooLarge(std::string detail)
 }
 
 /// Check that the tables of an atlas do not grow past their limits, whatever lamps its texels keep.
-Status checkSizes(const BakedReceivers& baked, size_t lamps, const SelectOptions& options)
+/// remedy  against too many texels
+Status checkSizes(uint64_t texels, size_t lamps, const SelectOptions& options, const char* remedy)
 {
     if (lamps > kMaxReceiverLamps)
-        return makeTooLarge(std::to_string(lamps) + " lamps; an atlas has " +
+        return makeTooLarge(std::to_string(lamps) + " lamps; receivers have " +
                             std::to_string(kMaxReceiverLamps) + " at most");
     const uint64_t colors = std::min<uint64_t>(lamps, options.max_colors);
-    if (baked.texels.size() * (1 + colors) >= kMaxTableBytes / sizeof(uint32_t))
-        return makeTooLarge(std::to_string(baked.texels.size()) +
-                            " texels; lower receivers.texels_per_metre");
+    if (texels * (1 + colors) >= kMaxTableBytes / sizeof(uint32_t))
+        return makeTooLarge(std::to_string(texels) + remedy);
     return success();
 }
 
 } // namespace
 
 Result<CookedReceivers> cookReceivers(const bricks::StaticScene& scene, const shared::SceneProbes& probes,
-                                      const CookSettings& settings)
+                                      const PackView* bricks, const CookSettings& settings)
 {
     HEARTH_ASSIGN_OR_RETURN(const ReceiverScene receivers, makeReceiverScene(scene, probes));
     const std::optional<BakedReceivers> baked = bakeReceivers(receivers.bake, settings.bake);
@@ -174,12 +121,23 @@ Result<CookedReceivers> cookReceivers(const bricks::StaticScene& scene, const sh
     cooked.shadow_rays = baked->shadow_rays;
     cooked.gather_rays = baked->gather_rays;
     listUnusable(scene, receivers, *baked, cooked);
-    if (baked->width == 0)
-        return cooked;
-    const PackOffsets offsets(scene);
-    const LampTable lamps = makeLampTable(scene, receivers, offsets);
-    HEARTH_TRY(checkSizes(*baked, lamps.records.size(), settings.atlas.select));
-    cooked.atlas = makeAtlas(lamps, makeRects(scene, receivers, offsets, *baked), *baked, settings.atlas);
+    const std::vector<uint32_t> pack_instances = findPackInstances(scene);
+    const LampTable lamps = makeLampTable(receivers, pack_instances);
+    const SelectOptions& select = settings.atlas.select;
+    if (baked->width > 0)
+    {
+        HEARTH_TRY(checkSizes(baked->texels.size(), lamps.records.size(), select,
+                              " texels; lower receivers.texels_per_metre"));
+        cooked.atlas = makeAtlas(lamps, makeRects(receivers, pack_instances, *baked), *baked, settings.atlas);
+    }
+    if (bricks != nullptr && bricks->brickGrid()[0].face_count > 0)
+    {
+        const uint32_t faces = bricks->brickGrid()[0].face_count;
+        HEARTH_TRY(checkSizes(faces, lamps.records.size(), select, " faces of bricks; lower bricks.memory"));
+        HEARTH_ASSIGN_OR_RETURN(const std::vector<Float3> light,
+                                bakeFaces(scene, *bricks, probes, receivers, lamps));
+        cooked.faces = packFaces(lamps.records, light, faces, settings.atlas);
+    }
     return cooked;
 }
 

@@ -5,6 +5,7 @@
 #include "cook/bricks/voxels/static_scene.h"
 #include "cook/receivers/bake/bake.h"
 #include "cook/receivers/select/atlas.h"
+#include "formats/pack/pack_view.h"
 #include "formats/scene/scene_lighting.h"
 
 #include <string>
@@ -40,18 +41,21 @@ struct InstancesWithoutUvs
 struct CookedReceivers
 {
     Atlas atlas; ///< of width 0 if no instance has receivers
+    Atlas faces; ///< of the grid of bricks, with the same lamps; of width 0 without a grid
     bricks::ExcludedInstances left_out;
     InstancesWithoutUvs without_uvs;
     std::vector<UnusableMesh> unusable_meshes; ///< by source and mesh
     uint64_t shadow_rays = 0, gather_rays = 0;
 };
 
-/// Cook the receivers of all static instances. The result does not depend on the number of threads.
+/// Cook the receivers of all static instances, and of the faces of bricks. The result does not depend on
+/// the number of threads.
 ///
 /// Each light of the sources is a lamp, and so is each instance that emits. Steady light is that of the sky,
 /// and what surfaces give back of the default sun.
+/// bricks  checked part with a grid that was cooked from the scene, or null
 /// errors: errors of decoding pages and textures; input_too_large where the atlas or the lamps are too many
 Result<CookedReceivers> cookReceivers(const bricks::StaticScene& scene, const shared::SceneProbes& probes,
-                                      const CookSettings& settings);
+                                      const formats::PackView* bricks, const CookSettings& settings);
 
 } // namespace hearth::receivers

@@ -4,10 +4,13 @@
 #include "cook/command_line/command_line.h"
 #include "cook/command_line/thread_limit.h"
 #include "cook/receivers/program/atlas_part.h"
+#include "cook/tools/open_part.h"
 #include "formats/base/atomic_file.h"
 #include "formats/base/program.h"
+#include "formats/pack/pack_check.h"
 
 #include <cstdio>
+#include <optional>
 
 namespace
 {
@@ -19,7 +22,8 @@ struct Arguments
 {
     std::vector<std::string> inputs;
     std::string output;
-    std::string probe; ///< part with the probe of the sky, or empty
+    std::string probe;  ///< part with the probe of the sky, or empty
+    std::string bricks; ///< part with the grid of bricks, or with the reason for none, or empty
     std::string statistics;
     CookSettings settings;
     size_t jobs = 0;
@@ -36,14 +40,28 @@ void warn(const CookedReceivers& cooked, const std::string& output)
     }
 }
 
+/// Open the grid of bricks; nullopt if there is none.
+Result<std::optional<formats::PackView>> openBricks(const std::string& path)
+{
+    if (path.empty())
+        return std::optional<formats::PackView>();
+    HEARTH_ASSIGN_OR_RETURN(formats::PackView part, tools::openPart(path));
+    if (part.brickGrid().empty())
+        return std::optional<formats::PackView>();
+    HEARTH_TRY(formats::checkBricks(part));
+    return std::optional<formats::PackView>(std::move(part));
+}
+
 Status cook(const Arguments& arguments)
 {
     HEARTH_ASSIGN_OR_RETURN(const std::vector<bricks::SourceParts> sources,
                             bricks::openSources(arguments.inputs));
     HEARTH_ASSIGN_OR_RETURN(const bricks::StaticScene scene, bricks::collectStaticScene(sources));
     HEARTH_ASSIGN_OR_RETURN(const bricks::SceneSky sky, bricks::SceneSky::open(scene, arguments.probe));
-    HEARTH_ASSIGN_OR_RETURN(const CookedReceivers cooked,
-                            cookReceivers(scene, sky.probes(), arguments.settings));
+    HEARTH_ASSIGN_OR_RETURN(const std::optional<formats::PackView> bricks, openBricks(arguments.bricks));
+    HEARTH_ASSIGN_OR_RETURN(
+        const CookedReceivers cooked,
+        cookReceivers(scene, sky.probes(), bricks ? &*bricks : nullptr, arguments.settings));
     HEARTH_TRY(writeReceiversPart(arguments.output, cooked, arguments.settings));
     warn(cooked, arguments.output);
     return arguments.statistics.empty()
@@ -80,6 +98,8 @@ void addOptions(cli::CommandLine& app, Arguments& arguments)
         .showDefault();
     app.addOption("--probe", arguments.probe,
                   "probe part of the sky that lights the scene; else that of a source, or the default sky");
+    app.addOption("--bricks", arguments.bricks,
+                  "bricks part of the sources: its faces receive light as well");
     app.addOption("--stats", arguments.statistics, "write statistics as JSON; - is standard output");
     app.addOption("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
     app.setCheck(

@@ -222,4 +222,17 @@ Atlas packAtlas(const BakedLight& baked, const AtlasOptions& options)
     return atlas;
 }
 
+Atlas packFaces(std::span<const formats::ReceiverLampRecord> lamps, std::span<const Float3> light,
+                uint32_t face_count, const AtlasOptions& options)
+{
+    HEARTH_ASSERT(face_count > 0 && light.size() == face_count * lamps.size());
+    const formats::FaceAtlasSize size = formats::faceAtlasSize(face_count);
+    const size_t cells = size_t{size.width} * size.height;
+    std::vector<uint8_t> valid(cells);
+    std::fill_n(valid.begin(), face_count, uint8_t{1});
+    std::vector<Float3> light_of_cells(light.begin(), light.end());
+    light_of_cells.resize(cells * lamps.size());
+    return packAtlas({size.width, size.height, lamps, {}, valid, light_of_cells}, options);
+}
+
 } // namespace hearth::receivers

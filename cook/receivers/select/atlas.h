@@ -47,4 +47,9 @@ struct Atlas
 /// Pack an atlas. Texels without light have no record. Always the same bytes.
 Atlas packAtlas(const BakedLight& baked, const AtlasOptions& options);
 
+/// Pack the faces of a grid of bricks, as texels in rows of shared::kMaxReceiverSide.
+/// light  [face_count][lamps]: radiance that leaves the face with weight 1, as BakedLight::light
+Atlas packFaces(std::span<const formats::ReceiverLampRecord> lamps, std::span<const Float3> light,
+                uint32_t face_count, const AtlasOptions& options);
+
 } // namespace hearth::receivers

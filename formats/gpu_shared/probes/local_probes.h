@@ -28,16 +28,18 @@ HEARTH_CONSTANT float kMinProbeIrradiance = 0.0625f;
 
 struct LocalProbe
 {
-    Float3 position;  ///< world, as the boxes
-    float irradiance; ///< luminance of its mean irradiance, by which texels and harmonics are divided
-    Float3 box_min;   ///< box on which its light is taken to lie
-    uint atlas_row;   ///< first row of its texels
+    Float3 position; ///< world, as the boxes
+    /// Luminance of its mean irradiance, by which texels and harmonics are divided: times the weights of
+    /// the lamps around it, of red, green and blue.
+    float irradiance_red;
+    Float3 box_min; ///< box on which its light is taken to lie
+    uint atlas_row; ///< first row of its texels
     Float3 box_max;
     float fade; ///< metres, above 0
     Float3 influence_min;
-    float reserved0;
+    float irradiance_green;
     Float3 influence_max;
-    float reserved1;
+    float irradiance_blue;
     Float4 sky_share; ///< share of the sky that the probe sees: probeSkyShare
 };
 

@@ -12,6 +12,9 @@ HEARTH_SHARED_BEGIN
 /// rectangle leave the lamp itself out.
 HEARTH_CONSTANT uint kLightBaked = 0x80000000u;
 
+/// Bit of Light::reflector_axis: the faces of bricks have the light of this lamp by its weight.
+HEARTH_CONSTANT uint kLightOnFaces = 0x40000000u;
+
 /// Row of an instance.
 struct ReceiverRow
 {

@@ -31,13 +31,15 @@ HEARTH_CONSTANT uint kReceiversBlocks = 0;
 HEARTH_CONSTANT uint kReceiversWords = 1;
 HEARTH_CONSTANT uint kReceiversWeights = 2; ///< four floats for each lamp, the last unused
 HEARTH_CONSTANT uint kReceiversTexels = 3;
+HEARTH_CONSTANT uint kReceiversFaces = 4; ///< light of the faces of bricks, in words
 
 /// Push constants of the update.
 struct ReceiversPush
 {
     uint first_block;
     uint first_weight;
-    uint codec; ///< kReceiverRgb9e5 or kReceiverRgbm
+    uint codec;      ///< kReceiverRgb9e5 or kReceiverRgbm
+    uint first_face; ///< word of the first face; of texels 0
 };
 
 /// Up to 64 texels of one update group that the same lamps reach. Its words are the places of the texels,
@@ -51,6 +53,8 @@ struct ReceiverBlock
     uint lamps[6]; ///< two a word, the first in the lower half
 };
 
+/// Return the place of a texel. Faces of bricks are texels in rows of kMaxReceiverSide, so that the place of
+/// a face is its number.
 HEARTH_FUNCTION uint encodeReceiverPlace(uint x, uint y)
 {
     return x | y << kReceiverSideBits;

@@ -243,11 +243,11 @@ ReceiverLampSummary summarizeLamp(const PackView& pack, const ReceiverLampRecord
     }
 }
 
-ReceiverBytes sumReceiverBytes(const PackView& pack)
+ReceiverBytes sumReceiverBytes(const PackView& pack, std::span<const uint32_t> chunks)
 {
     ReceiverBytes sum;
     for (const ChunkEntry& entry : pack.container().chunks())
-        if (std::ranges::find(kReceiverChunks, entry.type) != kReceiverChunks.end())
+        if (std::ranges::find(chunks, entry.type) != chunks.end())
         {
             sum.bytes += entry.size;
             sum.stored_bytes += entry.stored_size;

@@ -131,7 +131,7 @@ struct ReceiverBytes
     uint64_t bytes = 0;        ///< in memory
     uint64_t stored_bytes = 0; ///< as stored in the file
 };
-ReceiverBytes sumReceiverBytes(const formats::PackView& pack);
+ReceiverBytes sumReceiverBytes(const formats::PackView& pack, std::span<const uint32_t> chunks);
 const char* receiverCodecName(uint32_t codec);
 
 PackSummary summarize(const formats::PackView& pack);

@@ -305,7 +305,8 @@ Json bricksJson(const PackView& pack)
 Json receiversJson(const PackView& pack)
 {
     const ReceiverTables tables = pack.receivers();
-    const ReceiverBytes sum = sumReceiverBytes(pack);
+    const ReceiverBytes sum = sumReceiverBytes(pack, kReceiverChunks);
+    const ReceiverBytes face_sum = sumReceiverBytes(pack, kFaceReceiverChunks);
     const auto lamp = [&](uint32_t i) -> Json
     {
         const ReceiverLampSummary summary = summarizeLamp(pack, tables.lamps[i]);
@@ -329,6 +330,10 @@ Json receiversJson(const PackView& pack)
             {"texels", tables.atlas.texel_count},
             {"bytes", sum.bytes},
             {"bytes_stored", sum.stored_bytes},
+            {"faces",
+             {{"count", pack.faceReceivers().atlas.texel_count},
+              {"bytes", face_sum.bytes},
+              {"bytes_stored", face_sum.stored_bytes}}},
             {"lamps", listJson(tables.lamps.size(), lamp)},
             {"rectangles", listJson(tables.rects.size(), rectangle)}};
 }
@@ -409,7 +414,7 @@ std::string inspectJson(const PackView& pack, const PackSummary& summary)
     json["scene"] = sceneJson(pack, summary);
     if (!pack.brickGrid().empty())
         json["bricks"] = bricksJson(pack);
-    if (!pack.receiverAtlases().empty())
+    if (!pack.receivers().lamps.empty())
         json["receivers"] = receiversJson(pack);
     json["chunks"] = chunksJson(pack);
     json["messages"] = messagesJson(summary.meta.messages);

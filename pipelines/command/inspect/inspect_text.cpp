@@ -141,20 +141,30 @@ std::string bricksText(const PackView& pack, const MetaSummary& meta)
     return text;
 }
 
-/// Describe the atlas of receivers, its lamps and rectangles. Nothing where the cook was not asked for them.
+/// Describe receivers: texels, faces, lamps and rectangles. Nothing where the cook was not asked for them.
 std::string receiversText(const PackView& pack, const MetaSummary& meta)
 {
-    if (pack.receiverAtlases().empty())
+    if (pack.receivers().lamps.empty())
         return meta.no_receivers.empty() ? "" : "receivers  none: " + printable(meta.no_receivers) + "\n";
     const ReceiverTables tables = pack.receivers();
-    const ReceiverBytes sum = sumReceiverBytes(pack);
-    const uint32_t texels = std::max(tables.atlas.texel_count, 1u);
-    std::string text = fmt::format("receivers  {} x {}, {} texels in {}, {} lamps, {} rectangles; {} stored "
-                                   "of {}, {:.1f} bytes a texel\n",
-                                   tables.atlas.width, tables.atlas.height, tables.atlas.texel_count,
-                                   receiverCodecName(tables.atlas.codec), tables.lamps.size(),
-                                   tables.rects.size(), readableSize(sum.stored_bytes),
-                                   readableSize(sum.bytes), static_cast<double>(sum.bytes) / texels);
+    const auto describe = [](const ReceiverAtlasRecord& atlas, const ReceiverBytes& sum, const char* unit)
+    {
+        const uint32_t count = std::max(atlas.texel_count, 1u);
+        return fmt::format("{} stored of {}, {:.1f} bytes a {}\n", readableSize(sum.stored_bytes),
+                           readableSize(sum.bytes), static_cast<double>(sum.bytes) / count, unit);
+    };
+    std::string text =
+        fmt::format("receivers  {} x {}, {} texels in {}, {} lamps, {} rectangles; ", tables.atlas.width,
+                    tables.atlas.height, tables.atlas.texel_count, receiverCodecName(tables.atlas.codec),
+                    tables.lamps.size(), tables.rects.size());
+    text += describe(tables.atlas, sumReceiverBytes(pack, kReceiverChunks), "texel");
+    if (!pack.faceAtlases().empty())
+    {
+        const ReceiverAtlasRecord& faces = pack.faceAtlases()[0];
+        text +=
+            fmt::format("  {} faces of bricks in {}; ", faces.texel_count, receiverCodecName(faces.codec));
+        text += describe(faces, sumReceiverBytes(pack, kFaceReceiverChunks), "face");
+    }
     for (size_t i = 0; i < tables.lamps.size(); ++i)
     {
         const ReceiverLampSummary lamp = summarizeLamp(pack, tables.lamps[i]);

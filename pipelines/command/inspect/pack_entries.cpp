@@ -408,9 +408,9 @@ void addLightEntries(std::vector<PackEntry>& entries, const PackView& pack)
 /// Add the receivers: one entry, with their lamps by name.
 void addReceiverEntry(std::vector<PackEntry>& entries, const PackView& pack)
 {
-    if (pack.receiverAtlases().empty())
+    if (pack.receivers().lamps.empty())
         return;
-    const ReceiverTables tables = pack.receivers();
+    const ReceiverTables tables = pack.receivers(), faces = pack.faceReceivers();
     PackEntry entry{"receivers", "", {}};
     addFieldProperties(entry.properties, pack, tables.atlas);
     for (size_t i = 0; i < tables.lamps.size(); ++i)
@@ -426,6 +426,9 @@ void addReceiverEntry(std::vector<PackEntry>& entries, const PackView& pack)
     entry.properties.push_back(
         {"light", contentHash(std::string(rawBytes(tables.blocks)) + std::string(rawBytes(tables.words))),
          true});
+    entry.properties.push_back(
+        {"light of faces",
+         contentHash(std::string(rawBytes(faces.blocks)) + std::string(rawBytes(faces.words))), true});
     entries.push_back(std::move(entry));
 }
 

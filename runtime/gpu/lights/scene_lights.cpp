@@ -144,8 +144,7 @@ void SceneLights::reserveSlot(uint32_t slot)
 shared::Light SceneLights::sharedLight(size_t slot) const
 {
     shared::Light light = lighting_.lights[slot];
-    if (slots_[slot].is_baked)
-        light.reflector_axis |= shared::kLightBaked;
+    light.reflector_axis |= slots_[slot].baked;
     return light;
 }
 
@@ -184,12 +183,22 @@ void SceneLights::setWeight(MirroredTable& table, uint32_t slot, Float3 weight)
     writeLight(table, slot);
 }
 
-void SceneLights::setBaked(MirroredTable& table, uint32_t slot, bool is_baked)
+void SceneLights::weighProbe(MirroredTable& table, size_t probe, Float3 weight)
+{
+    shared::LocalProbe weighed = lighting_.local_probes.tables[probe].probe;
+    weighed.irradiance_red *= weight.x;
+    weighed.irradiance_green *= weight.y;
+    weighed.irradiance_blue *= weight.z;
+    table.write(layout_.local_probes + probe * sizeof(shared::LocalProbeTable),
+                std::as_bytes(std::span(&weighed, 1)));
+}
+
+void SceneLights::setBaked(MirroredTable& table, uint32_t slot, uint32_t bits)
 {
     HEARTH_ASSERT(slot < slots_.size());
-    if (slots_[slot].is_baked == is_baked)
+    if (slots_[slot].baked == bits)
         return;
-    slots_[slot].is_baked = is_baked;
+    slots_[slot].baked = bits;
     writeLight(table, slot);
 }
 

@@ -66,7 +66,7 @@ public:
     void fill(MirroredTable& table, std::span<const std::byte> surroundings, uint64_t transfer_rows,
               bool has_surroundings, std::span<const std::byte> receivers = {});
 
-    /// Describe the atlas of receivers to shaders, before `fill`.
+    /// Describe receivers to shaders, before `fill`: the rows of instances, and the atlas if there is one.
     void setAtlas(const formats::ReceiverAtlasRecord& atlas);
 
     /// Replace the light of a slot below the capacity. It keeps the slot's shadow row and its weight.
@@ -79,11 +79,17 @@ public:
     /// The sky as loaded.
     const shared::Sky& loadedSky() const { return loaded_sky_; }
 
+    /// Local probes as loaded.
+    const shared::LocalProbes& localProbes() const { return lighting_.local_probes; }
+
+    /// Weigh the light of a local probe by channels, relative to its own.
+    void weighProbe(MirroredTable& table, size_t probe, Float3 weight);
+
     /// Set the weight of a slot, by which its light is multiplied; 1 until then.
     void setWeight(MirroredTable& table, uint32_t slot, Float3 weight);
 
-    /// Say whether the atlas of receivers has the light of a slot in use (shared::kLightBaked).
-    void setBaked(MirroredTable& table, uint32_t slot, bool is_baked);
+    /// Say which receivers have the light of a slot in use: shared::kLightBaked, shared::kLightOnFaces.
+    void setBaked(MirroredTable& table, uint32_t slot, uint32_t bits);
 
     /// Luminance of a slot's intensity without flicker, under its weight.
     float steadyLuminance(uint32_t slot) const;
@@ -117,7 +123,7 @@ private:
         Float3 intensity; ///< with weight 1
         float steady_luminance;
         Float3 weight{1, 1, 1};
-        bool is_baked = false;
+        uint32_t baked = 0; ///< bits of shared::Light::reflector_axis
     };
     void reserveSlot(uint32_t slot);
     /// Weigh the intensity of a slot, and write its light.

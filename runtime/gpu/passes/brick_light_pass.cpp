@@ -24,6 +24,7 @@ shared::BrickView makeView(const SceneBricks& bricks, std::span<const EmissionSc
     view.slice_bricks = bricks.share.brick_count;
     view.slice_faces = bricks.share.face_count;
     view.light_rays = bricks.rays;
+    view.baked_scale = bricks.baked_scale;
     const float scale = 1 / view.grid.voxel_size;
     for (const EmissionScale& change :
          emission.first(std::min<size_t>(emission.size(), shared::kMaxEmissionBoxes)))
@@ -40,6 +41,23 @@ shared::BrickView makeView(const SceneBricks& bricks, std::span<const EmissionSc
 /// frames less than 1 % of the old gathered light is left.
 constexpr uint32_t kQuickSweeps = 16;
 constexpr uint32_t kQuickFrames = 16;
+
+/// Sweeps over all faces after which light that is off has left them: a ten-thousandth of it at the largest
+/// albedo.
+constexpr uint32_t kDecaySweeps = 180;
+
+/// Return the parts of the faces' light in a frame, and count frames with light that is not baked.
+uint32_t findLightParts(const Scene& scene)
+{
+    SceneBricks& bricks = *scene.bricks;
+    if (scene.receivers == nullptr || !scene.receivers->faces)
+        return shared::kLiveFaceLight;
+    if (scene.receivers->hasLiveLight())
+        bricks.live_frames = kDecaySweeps * bricks.period;
+    else if (bricks.live_frames > 0)
+        --bricks.live_frames;
+    return shared::kBakedFaceLight | (bricks.live_frames > 0 ? shared::kLiveFaceLight : 0u);
+}
 
 bool sameEmission(const shared::BrickView& a, const shared::BrickView& b)
 {
@@ -62,17 +80,20 @@ void BrickLightPass::record(const Device& device, VkCommandBuffer commands, cons
                             const WordCopyPass& copy_words, WordCopies& copies, bool lights_change,
                             std::span<const EmissionScale> emission) const
 {
+    HEARTH_ASSERT(emission.empty() || scene.receivers == nullptr || !scene.receivers->faces);
     SceneBricks& bricks = *scene.bricks;
     bricks.share = nextBrickShare(bricks, bricks.frame++);
-    const shared::BrickView view = makeView(bricks, emission);
+    shared::BrickView view = makeView(bricks, emission);
+    view.light_parts = findLightParts(scene);
+    const bool is_live = (view.light_parts & shared::kLiveFaceLight) != 0;
     if (lights_change || !sameEmission(view, bricks.last_view))
-        bricks.quick_frames = kQuickSweeps * bricks.period + kQuickFrames;
+        bricks.quick_frames = (is_live ? kQuickSweeps * bricks.period : 0) + kQuickFrames;
     else if (bricks.quick_frames > 0)
         --bricks.quick_frames;
     bricks.last_view = view;
     const SceneFrame& frame = scene.frame();
     std::memcpy(frame.brick_view.mapped, &view, sizeof(view));
-    if (bricks.share.face_count == 0)
+    if (bricks.share.face_count == 0 || !is_live)
         return;
 
     // a debug view of the last frame shows the light, which the table leaves out: no other frame waits for it

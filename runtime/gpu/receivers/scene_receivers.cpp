@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace hearth::gpu
 {
@@ -50,8 +51,11 @@ Float3 levelIrradiance(const shared::Sky& sky)
 
 } // namespace
 
-SceneReceivers::SceneReceivers(const formats::PackView& pack, std::span<const shared::Light> lights)
-    : lamps_of_lights_(lights.size(), kInvalidIndex),
+SceneReceivers::SceneReceivers(const formats::PackView& pack, std::span<const shared::Light> lights,
+                               const shared::LocalProbes& probes)
+    : has_faces_(!pack.faceAtlases().empty()),
+      probe_weights_(pack, probes),
+      lamps_of_lights_(lights.size(), kInvalidIndex),
       lamps_of_instances_(pack.instances().size(), kInvalidIndex),
       loaded_(lights.begin(), lights.end()),
       rows_(pack.instances().size()),
@@ -81,20 +85,40 @@ SceneReceivers::SceneReceivers(const formats::PackView& pack, std::span<const sh
         sizes_[rect.instance] = row.size;
     }
     for (uint32_t groups = 0; groups < costs_.size(); ++groups)
+    {
         costs_[groups] = pack::countUpdate(tables, groups);
+        face_costs_[groups] = pack::countUpdate(pack.faceReceivers(), groups);
+    }
 }
 
-bool SceneReceivers::takeLight(uint32_t slot, const shared::Light& light)
+void SceneReceivers::setLive(uint32_t slot, bool is_live)
 {
+    if (slot >= is_live_.size())
+        is_live_.resize(slot + 1);
+    if (is_live && !is_live_[slot])
+        ++live_count_;
+    else if (!is_live && is_live_[slot])
+        --live_count_;
+    is_live_[slot] = is_live;
+}
+
+uint32_t SceneReceivers::takeLight(uint32_t slot, const shared::Light& light)
+{
+    setLive(slot, light.intensity != Float3{});
     if (slot >= lamps_of_lights_.size() || lamps_of_lights_[slot] == kInvalidIndex)
-        return false;
+        return 0;
     const shared::Light& loaded = loaded_[slot];
     const bool is_in_place = isInPlace(light, loaded);
     Float3 weight{};
     for (int c = 0; c < 3 && is_in_place; ++c)
         weight[c] = intensityRatio(light.intensity[c], loaded.intensity[c]);
     schedule_.setWeight(lamps_of_lights_[slot], weight);
-    return is_in_place && light.type != shared::kLightDirectional;
+    if (!is_in_place)
+        return 0;
+    if (has_faces_)
+        setLive(slot, false);
+    return (has_faces_ ? shared::kLightOnFaces : 0u) |
+           (light.type != shared::kLightDirectional ? shared::kLightBaked : 0u);
 }
 
 void SceneReceivers::takeSky(const shared::Sky& sky, const shared::Sky& baked)
@@ -125,7 +149,15 @@ const shared::ReceiverRow& SceneReceivers::takeMove(uint32_t instance, bool is_a
 uint32_t SceneReceivers::beginUpdate()
 {
     updated_groups_ = schedule_.nextGroups();
+    late_face_groups_ |= has_faces_ ? updated_groups_ : 0;
+    updated_face_groups_ = 0;
     return updated_groups_;
+}
+
+uint32_t SceneReceivers::beginFaceUpdate()
+{
+    updated_face_groups_ = std::exchange(late_face_groups_, 0);
+    return updated_face_groups_;
 }
 
 } // namespace hearth::gpu

@@ -1,5 +1,5 @@
-// Receivers of a scene: which of its lights and instances the atlas has, their weights, and the rows in which
-// shading finds the rectangles of instances. The atlas itself is receiver_pass.h's.
+// Receivers of a scene: which of its lights and instances are lamps of them, their weights, and the rows in
+// which shading finds the rectangles of instances. Texels and faces themselves are receiver_pass.h's.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -8,6 +8,7 @@
 #include "formats/gpu_shared/shading.h"
 #include "formats/gpu_shared/sky.h"
 #include "formats/pack/pack_view.h"
+#include "runtime/gpu/receivers/probe_weights.h"
 #include "runtime/gpu/receivers/receiver_pass.h"
 #include "runtime/pack/receivers/receiver_light.h"
 
@@ -21,18 +22,23 @@ namespace hearth::gpu
 class SceneReceivers
 {
 public:
-    /// pack    checked, with an atlas
+    /// pack    checked, with receivers
     /// lights  of the pack as loaded, exposed
-    SceneReceivers(const formats::PackView& pack, std::span<const shared::Light> lights);
+    /// probes  that are drawn
+    SceneReceivers(const formats::PackView& pack, std::span<const shared::Light> lights,
+                   const shared::LocalProbes& probes);
 
     /// Rows of all instances as they are now.
     std::span<const shared::ReceiverRow> rows() const { return rows_; }
 
-    /// Take the new state of a light: the atlas's lamp follows its intensity, of flicker and clips as well. A
-    /// light that is not where it was baked has no light in the atlas until it is back.
-    /// returns  true if surfaces with a rectangle leave the light out: a lamp whose light the atlas has.
-    ///          Suns never are: their direct light is not baked
-    bool takeLight(uint32_t slot, const shared::Light& light);
+    /// Take the new state of a light: its lamp follows its intensity, of flicker and clips as well. A light
+    /// that is not where it was baked has no light in receivers until it is back.
+    /// returns  bits of shared::Light::reflector_axis: kLightBaked if surfaces with a rectangle leave it out,
+    ///          never for suns, whose direct light texels do not have; kLightOnFaces if passes over bricks do
+    uint32_t takeLight(uint32_t slot, const shared::Light& light);
+
+    /// True if a light shines that the faces of bricks do not have: passes over bricks have to bounce it.
+    bool hasLiveLight() const { return live_count_ > 0; }
 
     /// Take the sky of a frame: steady light is that of the baked sky, and gets the ratio of what both
     /// give level ground. It is exact where the sky changes its brightness and colour alone.
@@ -46,17 +52,28 @@ public:
 
     /// Return the update groups that a frame is to update, by bits, as if it did; see ReceiverSchedule.
     uint32_t beginUpdate();
+    /// Return the groups of faces that are behind, as if the frame updated them. Frames without GI leave
+    /// them.
+    uint32_t beginFaceUpdate();
     /// Groups of the last frame.
     uint32_t updatedGroups() const { return updated_groups_; }
-    /// Cost of an update of all groups.
-    const pack::ReceiverCost& fullCost() const { return costs_.back(); }
-    /// Cost of the last frame's update.
-    const pack::ReceiverCost& updateCost() const { return costs_[updated_groups_]; }
+    /// Groups of faces of the last frame.
+    uint32_t updatedFaceGroups() const { return updated_face_groups_; }
+    /// Costs of an update of texels, by its groups.
+    const pack::ReceiverCost& cost(uint32_t groups) const { return costs_[groups]; }
+    /// The same of faces.
+    const pack::ReceiverCost& faceCost(uint32_t groups) const { return face_costs_[groups]; }
     std::span<const Float3> weights() const { return schedule_.weights(); }
+    const ProbeWeights& probeWeights() const { return probe_weights_; }
 
-    std::optional<ReceiverAtlas> atlas; ///< set by the upload
+    std::optional<ReceiverAtlas> atlas; ///< set by the upload; none without texels
+    std::optional<ReceiverFaces> faces; ///< the same; none without faces
 
 private:
+    void setLive(uint32_t slot, bool is_live);
+
+    bool has_faces_;
+    ProbeWeights probe_weights_;
     uint32_t steady_lamp_ = kInvalidIndex;
     std::vector<uint32_t> lamps_of_lights_;    ///< [slot]: lamp, or kInvalidIndex
     std::vector<uint32_t> lamps_of_instances_; ///< [instance]: the same
@@ -64,8 +81,12 @@ private:
     std::vector<shared::ReceiverRow> rows_;
     std::vector<uint32_t> sizes_; ///< [instance]: ReceiverRow::size at rest
     pack::ReceiverSchedule schedule_;
-    std::array<pack::ReceiverCost, 1u << shared::kReceiverGroups> costs_; ///< by groups
-    uint32_t updated_groups_ = 0;
+    using Costs = std::array<pack::ReceiverCost, 1u << shared::kReceiverGroups>;
+    Costs costs_, face_costs_; ///< by groups
+    uint32_t updated_groups_ = 0, updated_face_groups_ = 0;
+    uint32_t late_face_groups_ = 0; ///< that show older weights than texels
+    std::vector<bool> is_live_;     ///< [slot]
+    size_t live_count_ = 0;
 };
 
 } // namespace hearth::gpu

@@ -44,6 +44,16 @@ void followLight(const Scene& scene, uint32_t slot)
         scene.lights->setBaked(scene.tables->lighting, slot, scene.receivers->takeLight(slot, light));
 }
 
+/// Bring local probes up to date after changes of weights, of the sky's too.
+void followWeights(const Scene& scene)
+{
+    if (scene.receivers == nullptr || scene.receivers->probeWeights().isEmpty())
+        return;
+    for (size_t probe = 0; probe < scene.lights->localProbes().tables.size(); ++probe)
+        scene.lights->weighProbe(scene.tables->lighting, probe,
+                                 scene.receivers->probeWeights().weigh(probe, scene.receivers->weights()));
+}
+
 } // namespace
 
 Result<LightChange> changeLight(const Scene& scene, uint32_t light, const formats::LightRecord& record,
@@ -132,6 +142,7 @@ void takeDaylight(const Scene& scene, const DaylightChange& daylight)
     if (scene.receivers != nullptr)
         scene.receivers->takeSky(daylight.sky, scene.lights->loadedSky());
     takeLights(scene, daylight.sun ? std::span(&*daylight.sun, 1) : std::span<const LightChange>{}, {});
+    followWeights(scene);
 }
 
 void takeLights(const Scene& scene, std::span<const LightChange> lights, std::span<const LampWeight> weights)
@@ -153,6 +164,8 @@ void takeLights(const Scene& scene, std::span<const LightChange> lights, std::sp
             writeReceiverRow(scene, weight.index,
                              scene.receivers->weighEmission(weight.index, weight.weight));
     }
+    if (!lights.empty() || !weights.empty())
+        followWeights(scene);
     if (scene.surroundings != nullptr)
         scene.surroundings->update(table, scene.lights->layout().surroundings);
 }

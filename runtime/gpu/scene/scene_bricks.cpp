@@ -71,12 +71,15 @@ std::vector<uint32_t> readFirstFaces(const formats::PackView& pack)
     return first_faces;
 }
 
-/// Initial light as stored in the pack. The encoding is lossless.
-std::vector<shared::BrickLight> readLight(const formats::PackView& pack)
+/// Initial light as stored in the pack, encoded without loss. Where lamps are baked into faces there is none
+/// but theirs, which the first update brings.
+std::vector<uint32_t> readLight(const formats::PackView& pack)
 {
-    std::vector<shared::BrickLight> light;
+    if (!pack.faceAtlases().empty())
+        return std::vector<uint32_t>(pack.brickLighting().size() * 3);
+    std::vector<uint32_t> light;
     for (const uint32_t code : pack.brickLighting())
-        light.push_back({code, 0});
+        light.insert(light.end(), {code, 0});
     return light;
 }
 
@@ -110,7 +113,7 @@ Status createBuffers(const Device& device, const formats::PackView& pack, Upload
     HEARTH_TRY(upload(b.groups, std::as_bytes(pack.brickGroupsAlongAxis())));
     HEARTH_TRY(upload(b.bricks, std::as_bytes(pack.bricks())));
     const std::vector<shared::BrickLocation> places = readPlaces(pack);
-    const std::vector<shared::BrickLight> light = readLight(pack);
+    const std::vector<uint32_t> light = readLight(pack);
     HEARTH_TRY(upload(b.places, std::as_bytes(std::span(places))));
     HEARTH_TRY(upload(b.opacity, opacity));
     HEARTH_TRY(upload(b.surfaces, readSurfaces(pack)));

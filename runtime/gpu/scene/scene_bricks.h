@@ -38,8 +38,10 @@ struct SceneBricks
     formats::BrickGridRecord grid;
     Buffer groups, bricks, places, opacity;
     Buffer surfaces; ///< of the faces: albedo, then emission, then normals
-    Buffer lighting; ///< shared::BrickLight per face, read by lighting and gathering
-    Buffer fresh;    ///< new light of one frame's faces, before the copy
+    /// Light of faces, read by lighting and gathering: a shared::BrickLight for each, and where lamps are
+    /// baked into faces a word for each behind them.
+    Buffer lighting;
+    Buffer fresh; ///< new light of one frame's faces, before the copy
     VkDescriptorSet fresh_set = VK_NULL_HANDLE;
 
     std::vector<uint32_t> first_faces; ///< per brick, and the end of the last one
@@ -50,6 +52,11 @@ struct SceneBricks
     shared::BrickView last_view{};     ///< of the last frame
     uint32_t quick_frames = 0;         ///< number of further frames that follow a light change quickly
     bool is_shown = false;             ///< the last frame's fragments read the light: a view of bricks
+    float baked_scale = 0;             ///< shared::BrickView::baked_scale
+    uint32_t live_frames = 0;          ///< further frames with light that is not baked into the faces
+
+    /// Word of `lighting` with the baked light of face 0.
+    uint32_t firstBakedWord() const { return 2 * grid.face_count; }
 };
 
 /// Return the bricks that a frame lights.

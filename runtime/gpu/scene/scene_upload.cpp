@@ -228,9 +228,10 @@ Status uploadTables(const formats::PackView& pack, const SceneLayout& layout, Up
         rows = scene.surroundings->makeRows();
     }
     std::span<const std::byte> receivers;
-    if (!pack.receiverAtlases().empty())
+    if (!pack.receivers().lamps.empty())
     {
-        scene.receivers = std::make_unique<SceneReceivers>(pack, scene.lights->loaded());
+        scene.receivers =
+            std::make_unique<SceneReceivers>(pack, scene.lights->loaded(), scene.lights->localProbes());
         receivers = std::as_bytes(scene.receivers->rows());
         scene.lights->setAtlas(pack.receivers().atlas);
     }
@@ -477,7 +478,7 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
         std::clamp<size_t>(options.max_lights, lighting.lights.size(), shared::kMaxLights));
     scene->lights = std::make_unique<SceneLights>(
         LightBufferLayout::make(slots, lighting, SceneSurroundings::countRows(pack),
-                                pack.receiverAtlases().empty() ? 0 : pack.instances().size()),
+                                pack.receivers().lamps.empty() ? 0 : pack.instances().size()),
         std::move(lighting));
     if (!layout.deformation.words.empty())
         scene->deformation = makeDeformation(device, options.deformation, layout, group_items.rigid_items);

@@ -4,6 +4,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "formats/gpu_shared/bindings.h"
+#define LIVE_LIGHT_ALONE
 #include "runtime/shaders/scene/bricks.glsl"
 
 layout(local_size_x = kGroupFaces) in;
@@ -53,6 +54,9 @@ float emissionFactor(vec3 middle)
     return factor;
 }
 
+// True if the faces have this light already, baked: light is added, so each part bounces on its own.
+bool isOnFaces(Light light) { return (brick_view.light_parts & kBakedFaceLight) != 0u && (light.reflector_axis & kLightOnFaces) != 0u; }
+
 // Lights that may reach the faces of the workgroup, and the box of their voxels.
 shared uint marks[kMaxLights / 32u];
 shared int box_low[3];
@@ -96,7 +100,7 @@ void markLights()
         float reach = light.range / grid.voxel_size;
         bool is_unranged = light.type == kLightDirectional || light.range <= 0.0;
         bool is_off = light.intensity == vec3(0.0);
-        if (!is_off && (is_unranged || dot(off, off) <= reach * reach))
+        if (!is_off && !isOnFaces(light) && (is_unranged || dot(off, off) <= reach * reach))
             atomicOr(marks[i >> 5], 1u << (i & 31u));
     }
     barrier();
@@ -132,10 +136,17 @@ void main()
 
     BrickGrid grid = brick_view.grid;
     BrickStart start = brickFaceStart(grid, x, y, z, side, brickNormalAt(face), brickFaceSurface(x, y, z, side, brickDepthAt(face)));
-    vec3 arrived = brickGather(grid, sceneSky(), start, brick_view.light_rays, brickFaceSeed(x, y, z, side));
+    // emission and the sky are baked with the lamps
+    bool is_baked = (brick_view.light_parts & kBakedFaceLight) != 0u;
+    Sky sky = sceneSky();
+    if (is_baked)
+        sky = Sky(vec3(0.0), vec3(0.0), vec3(0.0), kNoSkyImage);
+    vec3 arrived = brickGather(grid, sky, start, brick_view.light_rays, brickFaceSeed(x, y, z, side));
     for (uint word = 0u; word < (lighting.light_count + 31u) / 32u; ++word)
         for (uint bits = marks[word]; bits != 0u; bits &= bits - 1u)
             arrived += brickDirect(grid, start, lights[word * 32u + uint(findLSB(bits))]);
-    vec3 emission = brickEmissionAt(face) * (lighting.exposure * emissionFactor(vec3(x, y, z) + 0.5));
+    vec3 emission = vec3(0.0);
+    if (!is_baked)
+        emission = brickEmissionAt(face) * (lighting.exposure * emissionFactor(vec3(x, y, z) + 0.5));
     fresh_lights[in_share] = encodeBrickLight(brickOutgoingRadiance(emission, brickAlbedoAt(face), arrived));
 }

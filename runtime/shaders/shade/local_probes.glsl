@@ -17,6 +17,8 @@ LocalProbe localProbe(uint row)
                       head[3].xyz, head[3].w, head[4].xyz, head[4].w, head[5]);
 }
 
+vec3 probeIrradiance(LocalProbe probe) { return vec3(probe.irradiance_red, probe.irradiance_green, probe.irradiance_blue); }
+
 mediump vec3 probeHarmonic(uint row, uint i) { return uintBitsToFloat(light_rows[row + kFirstProbeHarmonic + i].xyz); }
 
 // Luminance of the mean radiance over a wide cone, with that of lamps, which no texel has.
@@ -65,7 +67,7 @@ mediump vec3 probeMirror(LocalProbe probe, uint row, vec3 position, vec3 mirror,
 
 // Light of one probe that a surface reflects. What the probe sees is part of its light: of the cones of
 // visibility counts only what they hide beyond that. A surface with baked light has all occlusion in it, and
-// what it reflects follows its lamps.
+// what it reflects follows its lamps; elsewhere it follows the weights of the lamps around the probe.
 vec3 probeLight(LocalProbe probe, uint row, SurfacePoint point, Shading shading, Layers layers,
                 mediump float occlusion)
 {
@@ -83,14 +85,16 @@ vec3 probeLight(LocalProbe probe, uint row, SurfacePoint point, Shading shading,
     LightCone hemisphere = cosineCone(shading.normal);
     mediump vec3 own = probeConeRadiance(row, hemisphere);
     mediump float own_luminance = luminance(own);
-    mediump vec3 diffuse = probe.irradiance * own; // irradiance / pi at the surface, before occlusion
+    vec3 irradiance = probeIrradiance(probe);
+    mediump vec3 diffuse = irradiance * own; // irradiance / pi at the surface, before occlusion
+    vec3 factor = irradiance * localProbeFactor(kPi * own_luminance, kPi * own_luminance);
     if (point.received.is_known)
     {
         diffuse = point.received.mean_radiance;
         diffuse_share = 1.0;
-        own_luminance = probeLitConeLuminance(row, hemisphere);
+        vec3 color = irradiance / max(luminance(irradiance), 1e-20);
+        factor = color * localProbeFactor(kPi * luminance(diffuse), kPi * probeLitConeLuminance(row, hemisphere));
     }
-    float factor = localProbeFactor(kPi * luminance(diffuse), kPi * own_luminance);
     vec3 radiance = shading.albedo.diffuse * (diffuse_share * diffuse) +
                     shading.albedo.specular * (mirror_share * factor *
                         probeMirror(probe, row, position, mirror, shading.normal, shading.roughness,

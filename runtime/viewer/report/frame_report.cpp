@@ -150,9 +150,14 @@ BrickCounts countBricks(const gpu::Scene& scene, const gpu::FrameTargets& target
 ReceiverCounts countReceivers(const gpu::Scene& scene)
 {
     HEARTH_ASSERT(scene.receivers != nullptr);
-    return {.texels = scene.receivers->fullCost().texels,
-            .groups = static_cast<uint32_t>(std::popcount(scene.receivers->updatedGroups())),
-            .cost = scene.receivers->updateCost()};
+    const gpu::SceneReceivers& receivers = *scene.receivers;
+    constexpr uint32_t kAll = (1u << shared::kReceiverGroups) - 1;
+    const uint32_t groups = receivers.updatedGroups();
+    return {.texels = receivers.cost(kAll).texels,
+            .faces = receivers.faceCost(kAll).texels,
+            .groups = static_cast<uint32_t>(std::popcount(groups)),
+            .cost = receivers.cost(groups),
+            .face_cost = receivers.faceCost(receivers.updatedFaceGroups())};
 }
 
 std::array<double, gpu::kTimestampCount> medianPassTimes(const std::vector<std::vector<double>>& frames)
@@ -197,10 +202,13 @@ std::string formatLights(const LightCounts& lights)
 std::string formatReceivers(const ReceiverCounts& receivers)
 {
     return "{\"texels\":" + std::to_string(receivers.texels) +
+           ",\"faces\":" + std::to_string(receivers.faces) +
            ",\"updated_groups\":" + std::to_string(receivers.groups) +
            ",\"updated_texels\":" + std::to_string(receivers.cost.texels) +
-           ",\"read_bytes\":" + std::to_string(receivers.cost.read_bytes) +
-           ",\"written_bytes\":" + std::to_string(receivers.cost.written_bytes) + "}";
+           ",\"updated_faces\":" + std::to_string(receivers.face_cost.texels) +
+           ",\"read_bytes\":" + std::to_string(receivers.cost.read_bytes + receivers.face_cost.read_bytes) +
+           ",\"written_bytes\":" +
+           std::to_string(receivers.cost.written_bytes + receivers.face_cost.written_bytes) + "}";
 }
 
 } // namespace

@@ -52,9 +52,11 @@ BrickCounts countBricks(const gpu::Scene& scene, const gpu::FrameTargets& target
 /// Baked light of a scene with receivers in the last frame.
 struct ReceiverCounts
 {
-    uint64_t texels = 0;     ///< of the atlas that have light
-    uint32_t groups = 0;     ///< of four, that the frame updated
-    pack::ReceiverCost cost; ///< of the update
+    uint64_t texels = 0;          ///< of the atlas that have light
+    uint64_t faces = 0;           ///< of bricks that have light
+    uint32_t groups = 0;          ///< of four, that the frame updated
+    pack::ReceiverCost cost;      ///< of the update of texels
+    pack::ReceiverCost face_cost; ///< of that of faces
 };
 ReceiverCounts countReceivers(const gpu::Scene& scene);
 

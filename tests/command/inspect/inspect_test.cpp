@@ -184,6 +184,8 @@ TEST_F(Inspect, describesTheReceivers)
     EXPECT_EQ(receivers["codec"], "rgb9e5");
     EXPECT_EQ(receivers["texels"], 3);
     EXPECT_EQ(receivers["bytes"], 64 + 3 * 8 + 2 * 24 + 2 * 40 + 10 * 4);
+    EXPECT_EQ(receivers["faces"]["count"], 3);
+    EXPECT_EQ(receivers["faces"]["bytes"], 64 + 2 * 40 + 8 * 4);
     ASSERT_EQ(receivers["lamps"].size(), 3u);
     EXPECT_EQ(receivers["lamps"][0]["kind"], "steady");
     EXPECT_EQ(receivers["lamps"][1]["kind"], "light");
@@ -197,10 +199,15 @@ TEST_F(Inspect, describesTheReceivers)
     EXPECT_NE(text.find("2 x 2 texels at (4, 0), UV set 0"), std::string::npos) << text;
 
     model.receiver_atlases.clear();
-    model.receiver_lamps.clear();
     model.receiver_rects.clear();
     model.receiver_blocks.clear();
     model.receiver_words.clear();
+    json = inspected(model);
+    EXPECT_EQ(json["receivers"]["texels"], 0) << "there are faces";
+    model.face_atlases.clear();
+    model.face_blocks.clear();
+    model.face_words.clear();
+    model.receiver_lamps.clear();
     json = inspected(model);
     EXPECT_FALSE(json.contains("receivers"));
     EXPECT_EQ(text.find("receivers "), std::string::npos) << text;

@@ -307,8 +307,16 @@ TEST_F(LinkPack, takesTheReceiversOfAPart)
     EXPECT_TRUE(linked().receiverAtlases().empty()) << "those of an import part are none";
     receivers = sandbox / "receivers.part";
     writeReceiversPart(smallPack(), receivers);
+    EXPECT_EQ(link().error().issue, Issue::meaning_reference)
+        << "light of bricks that the pack does not have";
+    EXPECT_EQ(link().error().file, receivers);
+    bricks = sandbox / "bricks.part";
+    writeBricksPart(smallPack(), bricks);
     const PackView pack = linked();
     const PackModel expected = smallPack();
+    EXPECT_TRUE(sameBytes(pack.faceAtlases(), expected.face_atlases));
+    EXPECT_TRUE(sameBytes(pack.faceReceivers().blocks, expected.face_blocks));
+    EXPECT_TRUE(sameBytes(pack.faceReceivers().words, expected.face_words));
     EXPECT_TRUE(sameBytes(pack.receiverAtlases(), expected.receiver_atlases));
     EXPECT_TRUE(sameBytes(pack.receivers().lamps, expected.receiver_lamps));
     EXPECT_TRUE(sameBytes(pack.receivers().rects, expected.receiver_rects));
@@ -327,6 +335,8 @@ TEST_F(LinkPack, refusesWrongReceiversAndNone)
     writeReceiversPart(model, receivers);
     EXPECT_EQ(link().error().issue, Issue::meaning_value);
     EXPECT_EQ(link().error().file, receivers);
+    bricks = sandbox / "bricks.part";
+    writeBricksPart(smallPack(), bricks);
     model = smallPack();
     model.receiver_lamps[1].index = 99; // of the lights, which are in another part
     writeReceiversPart(model, receivers);

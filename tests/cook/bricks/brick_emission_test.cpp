@@ -174,4 +174,50 @@ TEST_F(BrickEmission, ofAStripBeforeAWallReachesTheRoom)
         }
 }
 
+/// Two lamps of the same radiance, one of twice the area; then apart.
+TEST_F(BrickEmission, isSharedByWhatInstancesSend)
+{
+    const auto findShares = [&](Float3 offset)
+    {
+        Document document;
+        const int lamp = addEmissiveMaterial(document, "lamp", {1, 0.5f, 0}, kRadiance);
+        document.materials[static_cast<size_t>(lamp)].base_color = {0, 0, 0, 1};
+        // back to back, in one voxel if they are not moved apart
+        samples::addObject(document, "small",
+                           {{makeBox({0.05f, 0.05f, 0.05f}, {0.01f, 0.01f, 0.01f}, 1), lamp}});
+        samples::addObject(
+            document, "large",
+            {{transformed(makeBox({0.05f, 0.08f, 0.05f}, {0.02f, 0.01f, 0.01f}, 1), {.translation = offset}),
+              lamp}});
+        EXPECT_TRUE(writeFile(folder_ / "body.glb", encodeGlb(document)).ok());
+        sources_.clear();
+        sources_.push_back(makeSourceParts(folder_, "body.glb"));
+        const StaticScene scene = collectStaticScene(sources_).value();
+        GridSettings settings;
+        settings.voxel_size = double{kVoxel};
+        settings.min = Double3{-1, -1, -1};
+        settings.max = Double3{1, 1, 1};
+        grid_.emplace(cookGrid(scene, settings).value());
+        EXPECT_TRUE(traceEmission(scene, *grid_).ok());
+        return findEmissionShares(scene, makeBrickView(grid_->tables)).value();
+    };
+    const std::vector<EmissionShare> joint = findShares({});
+    ASSERT_FALSE(joint.empty());
+    for (size_t i = 0; i < joint.size(); i += 2)
+    {
+        ASSERT_EQ(joint[i].face, joint[i + 1].face);
+        // areas are 6 and 10 squares of a side; each hides a part of the other
+        EXPECT_NEAR(joint[i].share.x, 0.375f, 0.06f);
+        EXPECT_NEAR(joint[i].share.x + joint[i + 1].share.x, 1, 1e-5f);
+        EXPECT_NEAR(joint[i].share.y, joint[i].share.x, 1e-5f);
+        EXPECT_EQ(joint[i].share.z, 0) << "no instance sends blue";
+    }
+    size_t faces = 0;
+    for (const uint32_t code : grid_->tables.emission)
+        faces += code != 0 ? 1u : 0u;
+    EXPECT_GE(joint.size(), 2 * faces);
+    for (const EmissionShare& share : findShares({0.5f, 0, 0}))
+        EXPECT_EQ(share.share.x, 1) << "of a voxel with one instance";
+}
+
 } // namespace hearth::bricks

@@ -116,6 +116,60 @@ TEST_F(SettledLightTest, leavesASealedRoomExactlyDark)
     EXPECT_GT(*std::ranges::max_element(codes), 0u) << "the sun is out";
 }
 
+/// Lamps apart: light is linear, so each has what the grid has under it alone, and all sum to all.
+TEST_F(SettledLightTest, ofLampsApartIsThatOfEachAlone)
+{
+    cook("Kd 0.8 0.6 0.4\nKe 0.1 0.2 0.3\n");
+    shared::SceneLighting lighting = makeSceneLighting(*scene_);
+    lighting.lights.clear();
+    for (int i = 0; i < 9; ++i) // more than are swept at once
+        addLamp(lighting, {-0.6f + 0.15f * static_cast<float>(i), 0.9f, 0.2f},
+                {1.0f + static_cast<float>(i), 2, 0.5f});
+    const BrickView view = makeBrickView(grid_->tables);
+    LampSources sources{.count = 4, .lamps_of_lights = {1, 2, 2, 1, 1, 2, 1, 1, 2}, .emissions = {}};
+    for (uint32_t face = 0; face < view.emission.size(); ++face)
+        sources.emissions.push_back({face, 3, {0.25f, 0.5f, 1}});
+    const std::vector<Float3> lamps = settleLamps(view, lighting, sources);
+
+    const auto settleAlone = [&](uint32_t lamp)
+    {
+        shared::SceneLighting alone = lighting;
+        alone.sky = lamp == 0 ? lighting.sky : shared::Sky{};
+        std::vector<uint32_t> emission(view.emission.size());
+        const Float3 share = lamp == 0   ? Float3{0.75f, 0.5f, 0}
+                             : lamp == 3 ? Float3{0.25f, 0.5f, 1}
+                                         : Float3{};
+        for (size_t face = 0; face < emission.size(); ++face)
+            emission[face] = shared::encodeRadiance(shared::decodeRadiance(view.emission[face]) * share);
+        for (size_t i = 0; i < alone.lights.size(); ++i)
+            if (sources.lamps_of_lights[i] != lamp)
+                alone.lights[i].intensity = {};
+        BrickView own = view;
+        own.emission = emission;
+        return settleLight(own, alone).codes;
+    };
+    const std::vector<uint32_t> all = settleLight(view, lighting).codes;
+    std::vector<Float3> sums(all.size());
+    for (uint32_t lamp = 0; lamp < sources.count; ++lamp)
+    {
+        const std::vector<uint32_t> alone = settleAlone(lamp);
+        float brightest = 0;
+        for (size_t face = 0; face < all.size(); ++face)
+        {
+            const Float3 light = lamps[face * sources.count + lamp];
+            brightest = std::max(brightest, largest(light));
+            sums[face] += light;
+            // codes of the light and of the emission are a 64th apart, of blue a 32nd
+            for (int c = 0; c < 3; ++c)
+                ASSERT_NEAR(light[c], shared::decodeRadiance(alone[face])[c], 0.035f * light[c] + 1e-4f)
+                    << "lamp " << lamp << ", face " << face;
+        }
+        EXPECT_GT(brightest, 0.05f) << lamp;
+    }
+    for (size_t face = 0; face < all.size(); ++face)
+        expectRelative(sums[face], shared::decodeRadiance(all[face]), 0.02f);
+}
+
 TEST_F(SettledLightTest, isTheSameForAnyNumberOfThreads)
 {
     cook("Kd 0.8 0.6 0.4\nKe 0.1 0.2 0.3\n");

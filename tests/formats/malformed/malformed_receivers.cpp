@@ -115,6 +115,49 @@ const std::vector<MalformedPack>& malformedReceivers()
              p.receiver_words.push_back(0);
              p.receiver_atlases[0].word_count = 11;
          }},
+        {"faceAtlasTwice", Issue::meaning_value, "face receivers 1",
+         [](PackModel& p) { p.face_atlases.push_back(p.face_atlases[0]); }},
+        {"faceBlocksWithoutAtlas", Issue::meaning_range, "face receivers 0",
+         [](PackModel& p) { p.face_atlases.clear(); }},
+        {"receiverLampsAlone", Issue::meaning_range, "receiver lamp 0",
+         [](PackModel& p)
+         {
+             p.face_atlases.clear();
+             p.face_blocks.clear();
+             p.face_words.clear();
+             p.receiver_atlases.clear();
+             p.receiver_rects.clear();
+             p.receiver_blocks.clear();
+             p.receiver_words.clear();
+         }},
+        {"faceAtlasRectangles", Issue::meaning_range, "face receivers 0",
+         [](PackModel& p) { p.face_atlases[0].rect_count = 1; }},
+        {"faceLampCount", Issue::meaning_range, "face receivers 0",
+         [](PackModel& p) { p.face_atlases[0].lamp_count = 2; }},
+        {"faceOfOtherGrid", Issue::meaning_reference, "face receivers 0",
+         [](PackModel& p) { p.face_atlases[0].width += 1; }},
+        {"faceOfNoGrid", Issue::meaning_reference, "face receivers 0",
+         [](PackModel& p)
+         {
+             p.brick_grids.clear();
+             p.bricks = {};
+         }},
+        {"faceBlockLamp", Issue::meaning_reference, "face block 1",
+         [](PackModel& p) { p.face_blocks[1].lamps[0] = 3; }},
+        {"faceTwice", Issue::meaning_value, "face block 1",
+         [](PackModel& p)
+         {
+             p.face_blocks[1].group = 0;
+             p.face_words[6] = 0;
+         }},
+        {"faceBeyondGrid", Issue::meaning_range, "face block 1",
+         [](PackModel& p) { p.face_words[6] = 16383; }},
+        {"faceWordOfNoBlock", Issue::meaning_range, "face word 8",
+         [](PackModel& p)
+         {
+             p.face_words.push_back(0);
+             p.face_atlases[0].word_count = 9;
+         }},
         {"receiverTexelCount", Issue::meaning_value, "receivers 0",
          [](PackModel& p) { p.receiver_atlases[0].texel_count = 2; }},
         {"receiverGroupBlocks", Issue::meaning_value, "receivers 0",
