@@ -1,10 +1,10 @@
 // Draws rooms with receivers of baked light, and compares them with live light, with the CPU twin, and among
 // all light methods.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "formats/base/half.h"
 #include "formats/texels/shared_exponent.h"
 #include "runtime/pack/receivers/receiver_light.h"
 #include "tests/runtime/gpu/brick_scene.h"
+#include "tests/runtime/gpu/frame/read_radiance.h"
 #include "tests/runtime/gpu/frame/stage_spy.h"
 #include "tests/runtime/gpu/lights/all_lights_test.h"
 #include "tests/runtime/gpu/receivers/receiver_room.h"
@@ -70,17 +70,7 @@ protected:
                 return success();
             });
         HEARTH_ASSERT(status.ok());
-        const auto bytes = host().readSampled(renderer().device(), targets->post().radiance(), 8);
-        HEARTH_ASSERT(bytes.ok());
-        std::vector<Float3> radiance;
-        for (size_t i = 0; i < bytes->size(); i += 8)
-        {
-            std::array<uint16_t, 4> halves;
-            std::memcpy(&halves, bytes->data() + i, sizeof(halves));
-            radiance.push_back(
-                {floatFromHalf(halves[0]), floatFromHalf(halves[1]), floatFromHalf(halves[2])});
-        }
-        return radiance;
+        return readRadiance(host(), renderer(), *targets);
     }
 
     /// Return the instance of each pixel; kInvalidIndex for the background.
