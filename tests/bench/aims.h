@@ -147,6 +147,7 @@ inline constexpr std::array kAims = {
     Aim{"receiver-scene", "rms of random weights", Bound::at_most, 0.015},
     Aim{"receiver-scene", "jump between neighbouring texels", Bound::at_most, 0.01},
     Aim{"receiver-scene", "records of 16 bytes a texel", Bound::at_most, 2.2},
+    Aim{"receiver-scene", "specks of all lamps", Bound::at_most, 50},
     Aim{"receiver-scene", "rms error of all lamps beside paths", Bound::at_most, 0.08},
     Aim{"receiver-bake", "s of processor for a million texels, 8 lights, one bounce", Bound::at_most, 120},
     Aim{"receiver-bake", "s of processor for a million texels, 8 lights, all bounces", Bound::at_most, 120},

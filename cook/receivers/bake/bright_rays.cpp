@@ -33,6 +33,34 @@ struct SplitMean
     Values regular, bright;
 };
 
+/// Values of the brightest rays, each channel in falling order.
+using BrightestValues = std::array<Values, kManyBrightRays>;
+
+BrightestValues findBrightest(const RayValues& values, uint32_t count)
+{
+    BrightestValues brightest{};
+    for (uint32_t i = 0; i < count; ++i)
+    {
+        Values value = values[i];
+        for (Values& rank : brightest)
+            for (size_t k = 0; k < value.size(); ++k)
+            {
+                const float larger = std::max(rank[k], value[k]);
+                value[k] = std::min(rank[k], value[k]);
+                rank[k] = larger;
+            }
+    }
+    return brightest;
+}
+
+/// Return the part that is spread of light which so many rays bring.
+constexpr float spreadShare(uint32_t rays)
+{
+    return std::clamp((static_cast<float>(kManyBrightRays) - static_cast<float>(rays)) /
+                          (kManyBrightRays - kFewBrightRays),
+                      0.0f, 1.0f);
+}
+
 SplitMean splitMean(const RayValues& values, uint32_t count)
 {
     const float share = 1 / static_cast<float>(count);
@@ -51,27 +79,29 @@ SplitMean splitMean(const RayValues& values, uint32_t count)
     }
     if (!has_bright)
         return {all, {}};
-    Values mean = all, bright_rays;
+    Values mean = all;
     for (int round = 0; round < kMeanRounds; ++round)
     {
         Values sum{};
-        bright_rays.fill(0);
         for (uint32_t i = 0; i < count; ++i)
             for (size_t k = 0; k < sum.size(); ++k)
-            {
-                const float limit = kBrightRay * mean[k];
-                sum[k] += std::min(values[i][k], limit);
-                bright_rays[k] += values[i][k] > limit ? 1.0f : 0.0f;
-            }
+                sum[k] += std::min(values[i][k], kBrightRay * mean[k]);
         for (size_t k = 0; k < sum.size(); ++k)
             mean[k] = sum[k] * share;
     }
-    SplitMean split;
+    const BrightestValues brightest = findBrightest(values, count);
+    SplitMean split{{}, {}};
+    for (uint32_t rays = 1; rays < kManyBrightRays; ++rays)
+        for (size_t k = 0; k < all.size(); ++k)
+        {
+            // light between two ranks is brought by all rays of higher ranks
+            const float limit = std::max(kBrightRay * mean[k], kBrightRank * brightest.back()[k]);
+            const float step = std::max(brightest[rays - 1][k], limit) - std::max(brightest[rays][k], limit);
+            split.bright[k] += share * spreadShare(rays) * static_cast<float>(rays) * step;
+        }
     for (size_t k = 0; k < all.size(); ++k)
     {
-        const float part =
-            std::clamp((kManyBrightRays - bright_rays[k]) / (kManyBrightRays - kFewBrightRays), 0.0f, 1.0f);
-        split.bright[k] = std::max(all[k] - mean[k], 0.0f) * part;
+        split.bright[k] = std::min(split.bright[k], all[k]);
         split.regular[k] = all[k] - split.bright[k];
     }
     return split;

@@ -14,9 +14,13 @@ inline constexpr int32_t kSpreadTexels = 12;
 /// Light of a ray, over the mean of the texel's rays, above which it is spread.
 inline constexpr float kBrightRay = 4;
 
-/// Bright rays of a texel up to which all of their light is spread, and from which on none of it: what many
-/// rays meet has little noise, and shadows of its own.
+/// Rays of a texel up to which all light that they alone bring is spread, and from which on none of it:
+/// what many rays meet has little noise, and shadows of its own.
 inline constexpr uint32_t kFewBrightRays = 4, kManyBrightRays = 8;
+
+/// Light of a ray, over that of the ray of rank kManyBrightRays, above which it is spread: a lit wall that
+/// many rays meet keeps its shape, and does not hide a speck.
+inline constexpr float kBrightRank = 2;
 
 /// Gather the light of all texels: the mean over the rays of each of what elements send out that they meet, 0
 /// for those that meet none. Spread that of bright rays over texels of the same surface. Does not depend on

@@ -197,6 +197,40 @@ bench::LampAtlas makeAtlas(const BakeScene& scene, const BakedReceivers& baked, 
     return atlas;
 }
 
+/// Light by which a speck exceeds each of its neighbours, over that of the brightest of them.
+constexpr float kSpeck = 1.5f;
+
+/// Light, over the mean of its lamp, below which a texel is no speck: nobody sees it.
+constexpr float kSpeckLight = 0.02f;
+
+/// Return the specks of a lamp: texels amid four others that are much brighter than each of them.
+size_t countSpecks(const bench::LampAtlas& atlas, size_t lamp)
+{
+    const size_t lamps = atlas.lamps.size();
+    const auto find = [&](size_t cell)
+    {
+        const Float3 light = atlas.light[cell * lamps + lamp];
+        return std::max({light.x, light.y, light.z});
+    };
+    std::vector<uint8_t> neighbours(atlas.valid.size());
+    std::vector<float> brightest(atlas.valid.size());
+    for (const auto& [first, second] : atlas.neighbours)
+        for (const auto& [cell, other] : {std::pair(first, second), std::pair(second, first)})
+        {
+            ++neighbours[cell];
+            brightest[cell] = std::max(brightest[cell], find(other));
+        }
+    double sum = 0;
+    for (size_t cell = 0; cell < atlas.valid.size(); ++cell)
+        sum += atlas.valid[cell] != 0 ? double{find(cell)} : 0;
+    const auto least =
+        static_cast<float>(double{kSpeckLight} * sum / static_cast<double>(atlas.texelCount()));
+    size_t specks = 0;
+    for (size_t cell = 0; cell < atlas.valid.size(); ++cell)
+        specks += neighbours[cell] == 4 && find(cell) > std::max(kSpeck * brightest[cell], least) ? 1 : 0;
+    return specks;
+}
+
 /// returns  exit code: 1 if an aim is missed
 Result<int> run(const Arguments& arguments)
 {
@@ -219,7 +253,15 @@ Result<int> run(const Arguments& arguments)
     const bench::LampAtlas atlas = makeAtlas(receiver_scene.bake, baked, arguments.texels_per_metre);
     std::printf("%zu texels, %zu lights with that of the sky, baked in %.1f s\n", atlas.texelCount(),
                 baked.light_count, took.count());
+    size_t specks = 0;
+    for (size_t lamp = 0; lamp < atlas.lamps.size(); ++lamp)
+    {
+        const size_t found = countSpecks(atlas, lamp);
+        std::printf("  lamp %zu: %zu specks\n", lamp, found);
+        specks += found;
+    }
     bench::Judgement judgement("receiver-scene");
+    judgement.record("specks of all lamps", static_cast<double>(specks));
     const bench::RuleFigures chosen = bench::compareRules(atlas, bench::drawWeights(atlas, arguments.draws));
     judgement.record("rms of all on", chosen.all_on.rms());
     judgement.record("rms of random weights", chosen.random.rms());
