@@ -79,7 +79,7 @@ draw_lights() {
 
 # Baked light under four settings of its lamps, and in its texels.
 draw_lamps() {
-  cooked gallery gallery --receivers
+  cooked gallery gallery --receivers --set receivers.texels_per_metre=36
   local name images=() off=(--light pendant_west=0 --light pendant_middle=0 --light pendant_east=0)
   local look=(--scene-camera 0 --size 560x360 --samples 4)
   draw lamps-all gallery "${look[@]}"

@@ -91,7 +91,8 @@ struct DebugView
     VIEW(LIGHT_COUNT, kViewLightCount, "light-count", surface,                                               \
          "blue: 1, green: 4, yellow: 8, red: 16, white: 32")                                                 \
     VIEW(LIGHT_CELLS, kViewLightCells, "light-cells", surface, "")                                           \
-    VIEW(RECEIVERS, kViewReceivers, "receivers", surface, "texels of baked light; violet: none")
+    VIEW(RECEIVERS, kViewReceivers, "receivers", surface,                                                    \
+         "texels of baked light; red: a lamp of more than 2 % is dropped; violet: none")
 
 #define HEARTH_LIST_VIEW(c_name, number, name, shader, note)                                                 \
     DebugView{number, name, ViewShader::shader, note},

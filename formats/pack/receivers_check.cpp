@@ -178,7 +178,7 @@ Status checkPlaces(const PackView& view, const ReceiverTables& tables, const Wor
         const std::string text = "texel (" + std::to_string(x) + ", " + std::to_string(y) + ")";
         const auto wrong = [&](Issue issue, const char* detail)
         { return makeError(view, issue, kinds.block, i, text + detail); };
-        if (places[t] >> (2 * shared::kReceiverSideBits) != 0)
+        if ((places[t] & ~shared::kReceiverDrops) >> (2 * shared::kReceiverSideBits) != 0)
             return wrong(Issue::meaning_padding, ": reserved bits are not 0");
         if (x >= tables.atlas.width || y >= tables.atlas.height)
             return wrong(Issue::meaning_range, " lies outside the atlas");
@@ -301,11 +301,11 @@ Status checkFaceReferences(const PackView& view)
         return makeError(view, Issue::meaning_reference, kFaceWords.atlas, 0,
                          "they are not those of the grid, which has " + std::to_string(count) + " faces");
     for (size_t i = 0; i < tables.blocks.size(); ++i)
-        for (const uint32_t face :
+        for (const uint32_t place :
              tables.words.subspan(tables.blocks[i].first_word, tables.blocks[i].texel_count))
-            if (face >= count)
+            if (shared::receiverFace(place) >= count)
                 return makeError(view, Issue::meaning_reference, kFaceWords.block, i,
-                                 "face " + std::to_string(face));
+                                 "face " + std::to_string(shared::receiverFace(place)));
     return success();
 }
 

@@ -9,6 +9,7 @@ namespace hearth::light_pictures
 {
 
 /// Draw the irradiance of all lamps under full weights; texels of no surface are black.
-LightPicture drawReceivers(const formats::ReceiverTables& tables);
+/// shows_drops  texels with shared::kReceiverDrops are red
+LightPicture drawReceivers(const formats::ReceiverTables& tables, bool shows_drops);
 
 } // namespace hearth::light_pictures

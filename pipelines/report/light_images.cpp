@@ -59,12 +59,13 @@ LightImage drawProbe(const formats::PackView& pack, size_t number)
 LightImage drawAtlas(const formats::PackView& pack)
 {
     const formats::ReceiverTables tables = pack.receivers();
-    const light_pictures::LightPicture picture = light_pictures::drawReceivers(tables);
+    const light_pictures::LightPicture picture = light_pictures::drawReceivers(tables, true);
     const uint32_t factor = (picture.width + kMaxAtlasWidth - 1) / kMaxAtlasWidth;
     return {.name = "receivers",
             .png = toPng(light_pictures::shrink(picture, std::max(factor, 1u)), 1),
             .facts = {{"atlas", fmt::format("{} × {} texels", picture.width, picture.height)},
-                      {"lamps", std::to_string(tables.lamps.size())}}};
+                      {"lamps", std::to_string(tables.lamps.size())},
+                      {"red", "texels without a lamp of more than 2 % of their light"}}};
 }
 
 } // namespace

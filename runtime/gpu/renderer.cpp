@@ -602,14 +602,16 @@ void Renderer::recordShadowMap(VkCommandBuffer commands, const Scene& scene, con
 void Renderer::recordReceivers(VkCommandBuffer commands, const Scene& scene, const FrameInput& input) const
 {
     SceneReceivers& receivers = *scene.receivers;
-    const uint32_t groups = receivers.beginUpdate();
+    const bool shows_drops = input.shading.debug_view == shared::kViewReceivers;
+    const uint32_t groups = receivers.beginUpdate(shows_drops);
     const uint32_t face_groups = showsBricks(input) ? receivers.beginFaceUpdate() : 0;
     if ((groups | face_groups) == 0)
         return;
     const DebugLabel label(device_, commands, "update receivers");
     const uint32_t frame = scene.tables->frame;
     if (receivers.atlas)
-        receivers_->record(device_, commands, *receivers.atlas, frame, receivers.weights(), groups);
+        receivers_->record(device_, commands, *receivers.atlas, frame, receivers.weights(), groups,
+                           shows_drops);
     if (receivers.faces)
         receivers_->record(device_, commands, *receivers.faces, frame, receivers.weights(), face_groups,
                            scene.bricks->is_shown);

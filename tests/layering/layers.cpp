@@ -98,7 +98,7 @@ const std::vector<Layer>& layers()
         {"cook/receivers/bake", {"formats", "cook/sampling", "cook/ray_scene"}},
         {"cook/receivers/unwrap", {"formats", "cook/mesh", "cook/receivers/bake"}},
         {"cook/receivers/scene",
-         {"formats", "cook/bricks/voxels", "cook/bricks/light", "cook/receivers/bake"}},
+         {"formats", "cook/bricks/grid", "cook/bricks/voxels", "cook/bricks/light", "cook/receivers/bake"}},
         {"cook/receivers/program",
          {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/bricks/voxels",
           "cook/receivers/bake", "cook/receivers/scene", "cook/receivers/select"}},

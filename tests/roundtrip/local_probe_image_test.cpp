@@ -339,6 +339,9 @@ TEST_F(LocalProbeImageTest, agreesWithTheLobesOfBricks)
                     double{roughness}, by_bricks.x / by_probe.x, by_bricks.y / by_probe.y,
                     by_bricks.z / by_probe.z);
         EXPECT_GT(by_probe.x, 0.05);
+        EXPECT_NEAR(by_bricks.x / by_probe.x, 1, 0.05);
+        EXPECT_NEAR(by_bricks.y / by_probe.y, 1, 0.05);
+        EXPECT_NEAR(by_bricks.z / by_probe.z, 1, 0.05);
     }
 }
 
@@ -381,9 +384,12 @@ TEST_F(LocalProbeImageTest, followsTheWeightsOfLamps)
         std::printf("weights %.2f, %.2f: %.3f %.3f %.3f of a new capture; unchanged: %.3f %.3f %.3f\n",
                     double{weights[0]}, double{weights[1]}, weighed.x / captured.x, weighed.y / captured.y,
                     weighed.z / captured.z, all.x / captured.x, all.y / captured.y, all.z / captured.z);
-        EXPECT_NEAR(weighed.x / captured.x, 1, 0.1);
-        EXPECT_NEAR(weighed.y / captured.y, 1, 0.1);
-        EXPECT_NEAR(weighed.z / captured.z, 1, 0.1);
+        // one factor for all directions: the ball shows the far side of the room
+        for (const double ratio : {weighed.x / captured.x, weighed.y / captured.y, weighed.z / captured.z})
+        {
+            EXPECT_GT(ratio, 0.85);
+            EXPECT_LT(ratio, 1.4);
+        }
     }
 }
 

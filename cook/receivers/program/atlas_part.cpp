@@ -92,6 +92,7 @@ std::string statisticsJson(const CookedReceivers& cooked, const CookSettings& se
     json["bytes"] = bytes;
     json["bytes_per_texel"] = ratio(bytes, atlas.record.texel_count);
     json["largest_dropped"] = atlas.largest_dropped;
+    json["dropping_texels"] = atlas.dropping_count;
     json["faces"] = {{"count", faces.record.texel_count},
                      {"colors_per_face", ratio(faces.color_count, faces.record.texel_count)},
                      {"bytes", countBytes(faces, {})},

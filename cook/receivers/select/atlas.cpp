@@ -37,6 +37,7 @@ struct Texel
     uint32_t x, y;
     LampSet set;
     size_t first_color; ///< of Chosen::colors
+    bool drops;         ///< shared::kReceiverDrops
 
     uint32_t group() const { return shared::receiverGroup(x, y); }
     uint32_t order() const { return formats::receiverOrder(x, y); }
@@ -79,7 +80,8 @@ void chooseTexel(const BakedLight& baked, const SelectOptions& options, uint32_t
     selectLights(light, is_steady, options, kept);
     if (kept.empty())
         return;
-    Texel texel{x, y, {}, chosen.colors.size()};
+    const double dropped = measureDropped(light, kept);
+    Texel texel{x, y, {}, chosen.colors.size(), dropped > double{shared::kMaxUnseenDrop}};
     Double3 sum{};
     for (const KeptLight& lamp : kept)
     {
@@ -89,7 +91,7 @@ void chooseTexel(const BakedLight& baked, const SelectOptions& options, uint32_t
     }
     chosen.texels.push_back(texel);
     chosen.largest = std::max({chosen.largest, sum.x, sum.y, sum.z});
-    chosen.largest_dropped = std::max(chosen.largest_dropped, measureDropped(light, kept));
+    chosen.largest_dropped = std::max(chosen.largest_dropped, dropped);
 }
 
 Chosen chooseTexels(const BakedLight& baked, const SelectOptions& options)
@@ -179,7 +181,12 @@ void appendBlock(const Chosen& chosen, std::span<const uint32_t> members, Atlas&
     for (uint32_t color = 0; color < block.color_count; ++color)
         block.lamps[color / 2] |= first.set.lamps[color] << (16 * (color % 2));
     for (const uint32_t member : members)
-        atlas.words.push_back(shared::encodeReceiverPlace(chosen.texels[member].x, chosen.texels[member].y));
+    {
+        const Texel& texel = chosen.texels[member];
+        atlas.words.push_back(shared::encodeReceiverPlace(texel.x, texel.y) |
+                              (texel.drops ? shared::kReceiverDrops : 0u));
+        atlas.dropping_count += texel.drops ? 1 : 0;
+    }
     for (uint32_t color = 0; color < block.color_count; ++color)
         for (const uint32_t member : members)
             atlas.words.push_back(encodeColor(chosen.colors[chosen.texels[member].first_color + color],

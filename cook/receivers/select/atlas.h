@@ -37,9 +37,10 @@ struct Atlas
     std::vector<formats::ReceiverRectRecord> rects;
     std::vector<formats::ReceiverBlockRecord> blocks;
     std::vector<uint32_t> words;
-    uint64_t color_count = 0;   ///< of all texels
-    uint64_t triple_count = 0;  ///< records of three colours that all texels need
-    double largest_dropped = 0; ///< largest channel of a lamp that a texel dropped, over that of its sum
+    uint64_t color_count = 0;    ///< of all texels
+    uint64_t triple_count = 0;   ///< records of three colours that all texels need
+    uint64_t dropping_count = 0; ///< texels with shared::kReceiverDrops
+    double largest_dropped = 0;  ///< largest channel of a lamp that a texel dropped, over that of its sum
 
     formats::ReceiverTables tables() const { return {record, lamps, rects, blocks, words}; }
 };

@@ -25,6 +25,10 @@ HEARTH_CONSTANT uint kReceiverGroups = 4;
 HEARTH_CONSTANT uint kReceiverRgb9e5 = 0; ///< shared exponent, as texels of E5B9G9R9
 HEARTH_CONSTANT uint kReceiverRgbm = 1;   ///< bytes r, g, b, m: (6 r m)^2
 
+/// Bit of a texel's place: it does not keep a lamp with more than kMaxUnseenDrop of its light.
+HEARTH_CONSTANT uint kReceiverDrops = 1u << 28;
+HEARTH_CONSTANT float kMaxUnseenDrop = 0.02f;
+
 /// Set of the update, and its bindings.
 HEARTH_CONSTANT uint kSetReceivers = 0;
 HEARTH_CONSTANT uint kReceiversBlocks = 0;
@@ -33,12 +37,15 @@ HEARTH_CONSTANT uint kReceiversWeights = 2; ///< four floats for each lamp, the 
 HEARTH_CONSTANT uint kReceiversTexels = 3;
 HEARTH_CONSTANT uint kReceiversFaces = 4; ///< light of the faces of bricks, in words
 
+/// Bit of ReceiversPush::codec: texels with kReceiverDrops are red.
+HEARTH_CONSTANT uint kReceiverShowsDrops = 2;
+
 /// Push constants of the update.
 struct ReceiversPush
 {
     uint first_block;
     uint first_weight;
-    uint codec;      ///< kReceiverRgb9e5 or kReceiverRgbm
+    uint codec;      ///< kReceiverRgb9e5 or kReceiverRgbm; for a view kReceiverShowsDrops, too
     uint first_face; ///< word of the first face; of texels 0
 };
 
@@ -66,6 +73,12 @@ HEARTH_FUNCTION uint receiverX(uint place)
 HEARTH_FUNCTION uint receiverY(uint place)
 {
     return place >> kReceiverSideBits & (kMaxReceiverSide - 1u);
+}
+
+/// Return the face of bricks at a place.
+HEARTH_FUNCTION uint receiverFace(uint place)
+{
+    return place & (kReceiverDrops - 1u);
 }
 
 /// Return the update group of a texel: its place among 2 x 2 texels.

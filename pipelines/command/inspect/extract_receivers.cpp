@@ -16,7 +16,7 @@ Status extractReceivers(const std::string& path, const std::string& output)
         return Error{Issue::chunk_missing, path, chunkName(kChunkReceivers, 0), "the file has no receivers"};
     if (!light_pictures::isPictureName(output))
         return Error{Issue::usage, output, "", "receivers are written as .exr or .png"};
-    return light_pictures::writePicture(output, light_pictures::drawReceivers(file.receivers()), 1);
+    return light_pictures::writePicture(output, light_pictures::drawReceivers(file.receivers(), false), 1);
 }
 
 } // namespace hearth::command

@@ -282,7 +282,7 @@ function receiversSection(data) {
   const atlas = data.receivers;
   if (!atlas) return null;
   const texels = [['atlas', `${atlas.width} × ${atlas.height}, ${atlas.texels} texels at ${atlas.texels_per_metre} a metre, ${atlas.codec}`], ['lamps', `${atlas.lamps}, of which a texel keeps ${atlas.colors_per_texel.toFixed(1)}`],
-     ['bytes', `${bytes(atlas.bytes)}, ${atlas.bytes_per_texel.toFixed(1)} a texel`], ['largest share dropped', `${(100 * atlas.largest_dropped).toFixed(2)} % of a texel's light`], ['instances', String(atlas.instances)]];
+     ['bytes', `${bytes(atlas.bytes)}, ${atlas.bytes_per_texel.toFixed(1)} a texel`], ['largest share dropped', `${(100 * atlas.largest_dropped).toFixed(2)} % of a texel's light`], ['texels without a lamp of 2 %', String(atlas.dropping_texels)], ['instances', String(atlas.instances)]];
   const faces = atlas.faces.count && [['faces of bricks', `${atlas.faces.count}, of whose lamps one keeps ${atlas.faces.colors_per_face.toFixed(1)}, ${bytes(atlas.faces.bytes)}`]];
   const figures = atlas.none ? [['none', atlas.none]] : [...(atlas.texels ? texels : []), ...(faces || [])];
   const without = Object.entries(atlas.left_out).filter(([, count]) => count > 0).map(([reason, count]) => ['without', `${plural(count, 'instance')}: ${kWithoutReceivers[reason] || reason}`]);

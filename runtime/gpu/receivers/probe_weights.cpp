@@ -5,6 +5,8 @@
 #include "formats/gpu_shared/brick_rays.h"
 #include "formats/pack/for_each_brick.h"
 
+#include <algorithm>
+
 namespace hearth::gpu
 {
 
@@ -22,25 +24,16 @@ bool isInside(const shared::LocalProbe& probe, Float3 position, float margin)
            position.y <= high.y && position.z <= high.z;
 }
 
-/// Return the probes that may see each face, by bits: the face lies in the box, and looks to the probe. The
-/// other sides of the room's walls are as near.
-std::vector<uint32_t> findProbesOfFaces(const formats::PackView& pack, const shared::LocalProbes& probes)
+struct PlacedFace
 {
-    static_assert(shared::kMaxLocalProbes <= 32);
+    Float3 middle; ///< world space
+    uint32_t side;
+};
+
+std::vector<PlacedFace> placeFaces(const formats::PackView& pack)
+{
     const formats::BrickGridRecord& grid = pack.brickGrid()[0];
-    std::vector<uint32_t> found(pack.brickAlbedo().size());
-    const auto findProbes = [&](Float3 middle, uint32_t side)
-    {
-        uint32_t bits = 0;
-        for (size_t i = 0; i < probes.tables.size(); ++i)
-        {
-            const shared::LocalProbe& probe = probes.tables[i].probe;
-            if (isInside(probe, middle, kBoxMargin * grid.voxel_size) &&
-                dot(shared::brickFaceAxis(side), probe.position - middle) > 0)
-                bits |= 1u << i;
-        }
-        return bits;
-    };
+    std::vector<PlacedFace> faces(pack.brickAlbedo().size());
     formats::forEachBrickOfGrid(
         grid, pack.brickGroupsAlongAxis(),
         [&](uint32_t number, const formats::VoxelCoordinates& first)
@@ -53,10 +46,37 @@ std::vector<uint32_t> findProbesOfFaces(const formats::PackView& pack, const sha
                     {
                         const formats::VoxelCoordinates v = formats::voxelAtBit(first, bit, 1);
                         const Float3 middle = shared::brickFaceMiddle(v.x, v.y, v.z, side);
-                        found[face++] = findProbes(grid.origin + middle * grid.voxel_size, side);
+                        faces[face++] = {grid.origin + middle * grid.voxel_size, side};
                     }
         });
-    return found;
+    return faces;
+}
+
+/// Return the solid angle of a face at a probe, up to a factor that all faces have; 0 outside of its box, and
+/// for faces that look away, as those of the other sides of the room's walls.
+double measureSolidAngle(const shared::LocalProbe& probe, const PlacedFace& face, float voxel_size)
+{
+    if (!isInside(probe, face.middle, kBoxMargin * voxel_size))
+        return 0;
+    const Float3 offset = probe.position - face.middle;
+    const float distance = std::max(length(offset), voxel_size);
+    return std::max(double{dot(shared::brickFaceAxis(face.side), offset)}, 0.0) /
+           (double{distance} * distance * distance);
+}
+
+/// Add the light of a face of a block to that of each lamp.
+/// light  [lamps]
+void addFace(const formats::ReceiverTables& tables, const formats::ReceiverBlockRecord& block,
+             uint32_t number, double weight, Double3* light)
+{
+    if (weight <= 0)
+        return;
+    for (uint32_t color = 0; color < block.color_count; ++color)
+    {
+        const uint32_t word = tables.words[block.first_word + (color + 1) * block.texel_count + number];
+        Double3& sum = light[shared::receiverLamp(block, color)];
+        sum = sum + widen(shared::decodeReceiverColor(word, tables.atlas.codec)) * weight;
+    }
 }
 
 } // namespace
@@ -66,21 +86,17 @@ ProbeWeights::ProbeWeights(const formats::PackView& pack, const shared::LocalPro
     if (pack.faceAtlases().empty() || probes.tables.empty())
         return;
     const formats::ReceiverTables tables = pack.faceReceivers();
-    const std::vector<uint32_t> probes_of_faces = findProbesOfFaces(pack, probes);
+    const std::vector<PlacedFace> faces = placeFaces(pack);
     lamp_count_ = tables.lamps.size();
     light_.resize(probes.tables.size() * lamp_count_);
     for (const formats::ReceiverBlockRecord& block : tables.blocks)
         for (uint32_t i = 0; i < block.texel_count; ++i)
-        {
-            const uint32_t* const word = &tables.words[block.first_word + i];
-            for (uint32_t bits = probes_of_faces[*word], probe = 0; bits != 0; bits >>= 1, ++probe)
-                for (uint32_t color = 0; (bits & 1) != 0 && color < block.color_count; ++color)
-                {
-                    Double3& sum = light_[probe * lamp_count_ + shared::receiverLamp(block, color)];
-                    sum = sum + widen(shared::decodeReceiverColor(word[(color + 1) * block.texel_count],
-                                                                  tables.atlas.codec));
-                }
-        }
+            for (size_t probe = 0; probe < probes.tables.size(); ++probe)
+                addFace(tables, block, i,
+                        measureSolidAngle(probes.tables[probe].probe,
+                                          faces[shared::receiverFace(tables.words[block.first_word + i])],
+                                          pack.brickGrid()[0].voxel_size),
+                        &light_[probe * lamp_count_]);
 }
 
 Float3 ProbeWeights::weigh(size_t probe, std::span<const Float3> weights) const

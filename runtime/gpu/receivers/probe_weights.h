@@ -15,8 +15,8 @@ namespace hearth::gpu
 class ProbeWeights
 {
 public:
-    /// Sum the light of each lamp over the faces in the box of each probe. A probe without such faces, as
-    /// all in packs whose bricks have no receivers, keeps its light.
+    /// Sum the light of each lamp over the faces in the box of each probe, by their solid angles. A probe
+    /// without such faces, as all in packs whose bricks have no receivers, keeps its light.
     /// pack    checked
     /// probes  that are drawn
     ProbeWeights(const formats::PackView& pack, const shared::LocalProbes& probes);
@@ -29,7 +29,8 @@ public:
 
 private:
     size_t lamp_count_ = 0;
-    std::vector<Double3> light_; ///< [probes][lamps]: sum of radiances; empty if no probe follows lamps
+    std::vector<Double3>
+        light_; ///< [probes][lamps]: sum of radiances by solid angles; empty if no probe follows lamps
 };
 
 } // namespace hearth::gpu

@@ -231,12 +231,13 @@ Result<ReceiverAtlas> ReceiverPass::upload(const Device& device, const formats::
 }
 
 void ReceiverPass::record(const Device& device, VkCommandBuffer commands, const ReceiverAtlas& atlas,
-                          uint32_t frame, std::span<const Float3> weights, uint32_t groups) const
+                          uint32_t frame, std::span<const Float3> weights, uint32_t groups,
+                          bool shows_drops) const
 {
     if (groups == 0)
         return;
     const uint32_t first_weight = writeWeights(atlas.buffers, frame, weights);
-    const uint32_t codec = atlas.buffers.record.codec;
+    const uint32_t codec = atlas.buffers.record.codec | (shows_drops ? shared::kReceiverShowsDrops : 0u);
     constexpr VkPipelineStageFlags kReaders = VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | kCompute;
     const TexelAccess access = findAccess(update_);
     transition(device, commands, atlas.texels, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, access.layout,

@@ -80,8 +80,9 @@ public:
     /// frame    slot of the frame, below the number of frames in flight; no other one is written
     /// weights  [lamp_count]
     /// groups   by bits: of ReceiverSchedule::nextGroups()
+    /// shows_drops  texels with shared::kReceiverDrops are red
     void record(const Device& device, VkCommandBuffer commands, const ReceiverAtlas& atlas, uint32_t frame,
-                std::span<const Float3> weights, uint32_t groups) const;
+                std::span<const Float3> weights, uint32_t groups, bool shows_drops = false) const;
 
     /// Record the update of faces likewise, which passes over bricks and then fragments may read.
     /// is_shown  fragments of earlier frames have read the light

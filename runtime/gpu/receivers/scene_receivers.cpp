@@ -146,10 +146,12 @@ const shared::ReceiverRow& SceneReceivers::takeMove(uint32_t instance, bool is_a
     return rows_[instance];
 }
 
-uint32_t SceneReceivers::beginUpdate()
+uint32_t SceneReceivers::beginUpdate(bool shows_drops)
 {
     updated_groups_ = schedule_.nextGroups();
     late_face_groups_ |= has_faces_ ? updated_groups_ : 0;
+    if (std::exchange(shows_drops_, shows_drops) != shows_drops)
+        updated_groups_ = (1u << shared::kReceiverGroups) - 1;
     updated_face_groups_ = 0;
     return updated_groups_;
 }

@@ -51,7 +51,8 @@ public:
     const shared::ReceiverRow& takeMove(uint32_t instance, bool is_at_rest);
 
     /// Return the update groups that a frame is to update, by bits, as if it did; see ReceiverSchedule.
-    uint32_t beginUpdate();
+    /// shows_drops  the frame is a view of texels that do not keep all lamps: a change updates all
+    uint32_t beginUpdate(bool shows_drops = false);
     /// Return the groups of faces that are behind, as if the frame updated them. Frames without GI leave
     /// them.
     uint32_t beginFaceUpdate();
@@ -84,6 +85,7 @@ private:
     using Costs = std::array<pack::ReceiverCost, 1u << shared::kReceiverGroups>;
     Costs costs_, face_costs_; ///< by groups
     uint32_t updated_groups_ = 0, updated_face_groups_ = 0;
+    bool shows_drops_ = false;
     uint32_t late_face_groups_ = 0; ///< that show older weights than texels
     std::vector<bool> is_live_;     ///< [slot]
     size_t live_count_ = 0;

@@ -13,12 +13,15 @@ uint sumReceiver(ReceiverBlock block, uint texel, uint first_weight, uint codec,
 {
     uint word = block.first_word + texel;
     place = uvec2(receiverX(words[word]), receiverY(words[word]));
+    bool drops = (words[word] & kReceiverDrops) != 0u;
     vec3 sum = vec3(0.0);
     for (uint color = 0u; color < block.color_count; ++color)
     {
         word += block.texel_count;
         vec3 weight = weights[first_weight + receiverLamp(block, color)].xyz;
-        sum = addReceiverLight(sum, weight, decodeReceiverColor(words[word], codec));
+        sum = addReceiverLight(sum, weight, decodeReceiverColor(words[word], codec & kReceiverRgbm));
     }
+    if ((codec & kReceiverShowsDrops) != 0u && drops)
+        sum = vec3(max(sum.r, max(sum.g, sum.b)), 0.0, 0.0);
     return encodeSharedExponentWord(sum);
 }

@@ -168,6 +168,9 @@ TEST_F(Inspect, describesTheBricks)
         std::string::npos)
         << text;
 
+    model.face_atlases.clear();
+    model.face_blocks.clear();
+    model.face_words.clear();
     model.brick_grids.clear();
     model.bricks = {};
     json = inspected(model);

@@ -65,6 +65,40 @@ TEST(ReceiverAtlas, holdsWhatWasChosenForEachTexel)
         }
 }
 
+/// Texels say so where they do not keep a lamp with more than 2 % of their light, by its largest channel.
+TEST(ReceiverAtlas, marksTexelsThatDropLamps)
+{
+    const RandomReceivers scene(40, 30, 9, 4);
+    AtlasOptions options;
+    options.select.max_colors = 3;
+    const Atlas atlas = receivers::packAtlas(scene.baked(), options);
+    size_t marked = 0;
+    for (const formats::ReceiverBlockRecord& block : atlas.blocks)
+        for (uint32_t i = 0; i < block.texel_count; ++i)
+        {
+            const uint32_t place = atlas.words[block.first_word + i];
+            const std::span<const Float3> light = scene.lightAt(place & 16383, place >> 14 & 16383);
+            Double3 sum{};
+            double dropped = 0;
+            for (uint32_t lamp = 0; lamp < light.size(); ++lamp)
+            {
+                const Double3 color = widen(light[lamp]);
+                sum = sum + color;
+                bool is_kept = false;
+                for (uint32_t c = 0; c < block.color_count; ++c)
+                    is_kept = is_kept || (block.lamps[c / 2] >> (c % 2 * 16) & 0xFFFF) == lamp;
+                if (!is_kept)
+                    dropped = std::max({dropped, color.x, color.y, color.z});
+            }
+            const bool drops = dropped > 0.02 * std::max({sum.x, sum.y, sum.z});
+            ASSERT_EQ(place >> 28 & 1, drops ? 1u : 0u);
+            marked += drops ? 1 : 0;
+        }
+    EXPECT_EQ(atlas.dropping_count, marked);
+    EXPECT_GT(marked, 200u);
+    EXPECT_EQ(receivers::packAtlas(scene.baked(), {}).dropping_count, 0u) << "12 of 9 lamps";
+}
+
 TEST(ReceiverAtlas, blocksShareLampsAndGroupInARepeatableOrder)
 {
     const RandomReceivers scene(64, 64, 5, 2);

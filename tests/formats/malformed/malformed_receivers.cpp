@@ -86,7 +86,7 @@ const std::vector<MalformedPack>& malformedReceivers()
         {"receiverLampsOfBlockFall", Issue::meaning_order, "receiver block 1",
          [](PackModel& p) { p.receiver_blocks[1].lamps[1] = 1; }},
         {"receiverPlaceBits", Issue::meaning_padding, "receiver block 0",
-         [](PackModel& p) { p.receiver_words[0] |= 1u << 28; }},
+         [](PackModel& p) { p.receiver_words[0] |= 1u << 29; }},
         {"receiverPlaceOutside", Issue::meaning_range, "receiver block 0",
          [](PackModel& p) { p.receiver_words[1] = 6; }},
         {"receiverPlaceBelow", Issue::meaning_range, "receiver block 0",

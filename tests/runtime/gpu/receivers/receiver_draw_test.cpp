@@ -525,6 +525,24 @@ TEST_F(ReceiverDrawTest, nothingIsRecordedUnlessAWeightChanges)
     EXPECT_EQ(countUpdates({}), 0);
 }
 
+/// The view of texels changes them where they drop lamps, and the next frame without it brings them back.
+TEST_F(ReceiverDrawTest, theViewOfTexelsUpdatesThemAsItComesAndGoes)
+{
+    ReceiverRoom room;
+    addTwoLamps(room);
+    const auto scene = load(room.build());
+    const DrawOptions final{.width = kWidth, .height = kHeight};
+    DrawOptions view = final;
+    view.debug_view = shared::kViewReceivers;
+    const Image before = draw(*scene, kCamera, final);
+    draw(*scene, kCamera, view);
+    EXPECT_EQ(scene->receivers->updatedGroups(), 0b1111u);
+    draw(*scene, kCamera, view);
+    EXPECT_EQ(scene->receivers->updatedGroups(), 0u);
+    EXPECT_EQ(draw(*scene, kCamera, final).color, before.color);
+    EXPECT_EQ(scene->receivers->updatedGroups(), 0b1111u);
+}
+
 TEST_F(ReceiverDrawTest, weightsThatAreNoneAreErrors)
 {
     ReceiverRoom room;

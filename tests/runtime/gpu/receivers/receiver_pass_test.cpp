@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
 
 namespace hearth::test
@@ -43,7 +44,7 @@ protected:
     /// Return the words after updates, one frame each, with weights of their own.
     Result<std::vector<uint32_t>> update(const formats::ReceiverTables& tables,
                                          std::span<const std::vector<Float3>> weights,
-                                         std::span<const uint32_t> groups)
+                                         std::span<const uint32_t> groups, bool shows_drops = false)
     {
         HEARTH_ASSIGN_OR_RETURN(const gpu::ReceiverPass pass, gpu::ReceiverPass::create(device_, GetParam()));
         std::optional<gpu::ReceiverAtlas> scene;
@@ -56,7 +57,7 @@ protected:
                 HEARTH_ASSIGN_OR_RETURN(scene, pass.upload(device_, tables, frames, *uploader));
                 uploader->finish();
                 for (uint32_t frame = 0; frame < frames; ++frame)
-                    pass.record(device_, commands, *scene, frame, weights[frame], groups[frame]);
+                    pass.record(device_, commands, *scene, frame, weights[frame], groups[frame], shows_drops);
                 return success();
             }));
         HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes,
@@ -88,6 +89,33 @@ TEST_P(ReceiverPassTest, givesTheBytesOfTheCpu)
         ASSERT_TRUE(words.ok()) << formatMessage(words.error());
         EXPECT_EQ(*words, texels);
     }
+}
+
+TEST_P(ReceiverPassTest, showsTexelsThatDropLamps)
+{
+    const RandomReceivers random(64, 48, 9, 8);
+    receivers::AtlasOptions options;
+    options.select.max_colors = 3;
+    const receivers::Atlas atlas = receivers::packAtlas(random.baked(), options);
+    const std::vector<Float3> weights[] = {randomWeights(9, 1)};
+    const uint32_t groups[] = {15};
+    std::vector<uint32_t> expected(size_t{64} * 48);
+    pack::updateReceivers(atlas.tables(), weights[0], 15, expected);
+    size_t dropping = 0;
+    for (const formats::ReceiverBlockRecord& block : atlas.blocks)
+        for (uint32_t i = 0; i < block.texel_count; ++i)
+            if (const uint32_t place = atlas.words[block.first_word + i]; (place >> 28 & 1) != 0)
+            {
+                uint32_t& word = expected[(place >> 14 & 16383) * size_t{64} + (place & 16383)];
+                const Float3 light = shared::decodeSharedExponentWord(word);
+                word = shared::encodeSharedExponentWord({std::max({light.x, light.y, light.z}), 0, 0});
+                ++dropping;
+            }
+    EXPECT_GT(dropping, 500u);
+    EXPECT_LT(dropping, expected.size());
+    const auto words = update(atlas.tables(), weights, groups, true);
+    ASSERT_TRUE(words.ok()) << formatMessage(words.error());
+    EXPECT_EQ(*words, expected);
 }
 
 TEST_P(ReceiverPassTest, recordsNothingForNoGroup)
