@@ -20,6 +20,9 @@ inline PackModel heapModel()
     model.shadow_spheres.clear();
     model.brick_grids.clear();
     model.bricks = {};
+    model.face_atlases.clear();
+    model.face_blocks.clear();
+    model.face_words.clear();
     formats::AssetRecord strip = model.assets[0], triangle = model.assets[0];
     strip.instances = {0, 1};
     triangle.instances = {1, 1};
