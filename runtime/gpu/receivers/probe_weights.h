@@ -29,8 +29,7 @@ public:
 
 private:
     size_t lamp_count_ = 0;
-    std::vector<Double3>
-        light_; ///< [probes][lamps]: sum of radiances by solid angles; empty if no probe follows lamps
+    std::vector<Double3> light_; ///< [probes][lamps]: sums of radiance; empty if no probe follows lamps
 };
 
 } // namespace hearth::gpu

@@ -84,7 +84,8 @@ protected:
         }
         const auto device = gpu::makeDevice(recording);
         ASSERT_TRUE(device.ok());
-        EXPECT_TRUE(gpu::ReceiverPass::create(*device, gpu::ReceiverUpdate::compute).ok());
+        auto receivers = gpu::ReceiverPass::create(*device, gpu::ReceiverUpdate::compute);
+        EXPECT_TRUE(receivers.ok() && receivers->prepareFaces(*device).ok());
         EXPECT_TRUE(gpu::ReceiverPass::create(*device, gpu::ReceiverUpdate::points).ok());
         both_ = {{}, recordedPipelines(), sharedStructs(), constantIds()};
         for (const ListedShader& shader : listedShaders())
