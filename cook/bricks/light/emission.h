@@ -38,7 +38,8 @@ struct EmissionShare
 
 /// Find which instances the emission of faces is from, by the paths of traceEmission. Sorted by face, then
 /// instance; empty without an emissive material. The result does not depend on the number of threads.
-/// bricks  grid that was cooked from the scene
+/// bricks  grid that was cooked from the scene, with clusters of the default error: voxels of other clusters
+///         have no shares
 /// errors: errors of decoding pages
 Result<std::vector<EmissionShare>> findEmissionShares(const StaticScene& scene, const BrickView& bricks);
 
