@@ -356,6 +356,27 @@ TEST_F(CookReceivers, haveTheDefaultSunInTheSteadyLight)
     EXPECT_EQ(listLamps(inspect()["receivers"]), std::vector<std::string>{"steady "});
 }
 
+/// Passes over bricks light faces by every light that is no lamp, so faces must not have the default sun.
+TEST_F(CookReceivers, haveNoDefaultSunOnFaces)
+{
+    ASSERT_TRUE(samples::writeFile(folder / "lobby.glb", encodeGlb(makeLobby(false))).ok());
+    cook({"--receivers", "--set", "bricks.mode=on", "--set", "bricks.voxel_size=0.25"}, "lobby.glb");
+    const PackView pack = open("room.hearth");
+    const formats::ReceiverTables faces = pack.faceReceivers();
+    size_t sunlit = 0;
+    for (const formats::ReceiverBlockRecord& block : faces.blocks)
+        for (uint32_t i = 0; i < block.texel_count; ++i)
+        {
+            const uint32_t* const word = &faces.words[block.first_word + i];
+            ASSERT_EQ(block.color_count, 1u) << "steady light alone";
+            const float sky = decodeWord(word[block.texel_count]).y * faces.atlas.scale;
+            const float all = shared::decodeRadiance(pack.brickLighting()[shared::receiverFace(*word)]).y;
+            EXPECT_LE(sky, 1.02f * all + 1e-4f);
+            sunlit += sky < 0.6f * all ? 1 : 0;
+        }
+    EXPECT_GT(sunlit, 100u) << "the top of the floor is in the sun";
+}
+
 TEST_F(CookReceivers, sayWhyThereAreNone)
 {
     Document document = makeLobby(false);

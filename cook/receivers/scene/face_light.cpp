@@ -33,6 +33,9 @@ Result<std::vector<Float3>> bakeFaces(const bricks::StaticScene& scene, const fo
     const bricks::BrickView grid = bricks::makeBrickView(bricks);
     shared::SceneLighting lighting = bricks::makeSceneLighting(scene, probes);
     shared::addReflectors(lighting, bricks.reflectors());
+    if (receivers.has_default_sun) // no lamp stands for it, so passes over bricks add it in each frame
+        for (shared::Light& light : lighting.lights)
+            light.intensity = {};
     const std::vector<uint32_t> lamps_of_lights = findLampsOfLights(lamps, receivers.bake.lightCount());
     const size_t light_count = receivers.bake.lamps.size();
     std::map<uint32_t, uint32_t> lamps_of_instances;

@@ -10,7 +10,7 @@ namespace hearth::receivers
 {
 
 /// Compute the light that leaves each face, direct light of suns included, as it settles at under each lamp
-/// alone. It sums to the light of the grid's own table.
+/// alone. It sums to the light of the grid's own table, less that of the default sun.
 /// bricks  checked part with a grid that was cooked from the scene
 /// probes  of the sky; none: the default sky
 /// returns  [faces][lamps]: exposed radiance with weight 1
