@@ -71,15 +71,41 @@ std::vector<uint32_t> readFirstFaces(const formats::PackView& pack)
     return first_faces;
 }
 
+/// Stored light of faces without that of baked lamps: of the sun that a pack without lights has.
+std::vector<uint32_t> readDefaultSun(const formats::PackView& pack)
+{
+    std::vector<Float3> light;
+    for (const uint32_t code : pack.brickLighting())
+        light.push_back(shared::decodeRadiance(code));
+    const formats::ReceiverTables tables = pack.faceReceivers();
+    for (const formats::ReceiverBlockRecord& block : tables.blocks)
+        for (uint32_t i = 0; i < block.texel_count; ++i)
+            for (uint32_t color = 1; color <= block.color_count; ++color)
+            {
+                const uint32_t* const word = &tables.words[block.first_word + i];
+                Float3& face = light[shared::receiverFace(*word)];
+                face =
+                    face - shared::decodeReceiverColor(word[color * block.texel_count], tables.atlas.codec) *
+                               tables.atlas.scale;
+            }
+    std::vector<uint32_t> codes;
+    for (const Float3& face : light)
+        codes.push_back(shared::encodeRadiance(face)); // negative differences of roundings become 0
+    return codes;
+}
+
 /// Initial light as stored in the pack, encoded without loss. Where lamps are baked into faces there is none
-/// but theirs, which the first update brings.
+/// but that of the default sun, and behind it room for theirs, which the first update brings.
 std::vector<uint32_t> readLight(const formats::PackView& pack)
 {
-    if (!pack.faceAtlases().empty())
+    const bool has_lamps = !pack.faceAtlases().empty();
+    if (has_lamps && !pack.lights().empty())
         return std::vector<uint32_t>(pack.brickLighting().size() * 3);
+    const std::vector<uint32_t> sun = has_lamps ? readDefaultSun(pack) : std::vector<uint32_t>{};
     std::vector<uint32_t> light;
-    for (const uint32_t code : pack.brickLighting())
+    for (const uint32_t code : has_lamps ? std::span<const uint32_t>(sun) : pack.brickLighting())
         light.insert(light.end(), {code, 0});
+    light.resize(pack.brickLighting().size() * (has_lamps ? 3 : 2));
     return light;
 }
 
