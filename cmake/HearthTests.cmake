@@ -70,13 +70,29 @@ function(hearth_test_variant name)
     ENVIRONMENT "HEARTH_CACHE=off;${ARG_ENVIRONMENT}" LABELS "${ARG_LABELS}" TIMEOUT 600 COST "${ARG_COST}")
 endfunction()
 
+# hearth_precompile_for_tests(PROGRAM HEADERS ... LINKS ...): precompile further headers for a program of many tests, before
+# its first test: headers of the project that most of its sources include and that take long to parse.
+function(hearth_precompile_for_tests program)
+  cmake_parse_arguments(ARG "" "" "HEADERS;LINKS" ${ARGN})
+  list(TRANSFORM ARG_HEADERS PREPEND ${PROJECT_SOURCE_DIR}/)
+  hearth_precompiled_library(hearth_precompiled_${program}
+    HEADERS ${hearth_precompiled_headers} <gtest/gtest.h> ${ARG_HEADERS}
+    LINKS GTest::gtest ${ARG_LINKS}
+    OPTIONS ${hearth_test_options})
+  set(hearth_precompiled_for_${program} hearth_precompiled_${program} PARENT_SCOPE)
+endfunction()
+
 # hearth_test_program(NAME): a GoogleTest program without tests.
 function(hearth_test_program name)
   add_executable(${name} ${PROJECT_SOURCE_DIR}/tests/support/test_main.cpp)
   target_link_libraries(${name} PRIVATE hearth_settings hearth_warnings GTest::gtest GTest::gmock)
   target_compile_definitions(${name} PRIVATE HEARTH_BIN="${CMAKE_RUNTIME_OUTPUT_DIRECTORY}")
   target_compile_options(${name} PRIVATE ${hearth_test_options})
-  hearth_precompile(${name} hearth_precompiled_tests)
+  set(precompiled hearth_precompiled_tests)
+  if(hearth_precompiled_for_${name})
+    set(precompiled ${hearth_precompiled_for_${name}})
+  endif()
+  hearth_precompile(${name} ${precompiled})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/tests)
   add_dependencies(hearth_tests ${name})
 endfunction()

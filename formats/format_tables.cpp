@@ -72,6 +72,17 @@ std::vector<Value> listAnimationPaths()
     return values;
 }
 
+std::vector<Value> listProxyOrigins()
+{
+    constexpr std::array<std::string_view, kProxyOriginNames.size()> kMeanings{
+        "the mesh itself, repaired and decimated", "a closed surface around the mesh",
+        "a mesh that an artist made for it"};
+    std::vector<Value> values;
+    for (uint32_t origin = 0; origin < kProxyOriginNames.size(); ++origin)
+        values.push_back({kProxyOriginNames[origin], origin, std::string(kMeanings[origin])});
+    return values;
+}
+
 std::vector<Value> listTexelFormats()
 {
     std::vector<Value> values;
@@ -165,6 +176,7 @@ std::vector<ValueTable> valueTables()
           value("morph_position", SourceSemantic::morph_position, "f32[3] deltas, set = target"),
           value("morph_normal", SourceSemantic::morph_normal, "f32[3] deltas, set = target"),
           value("morph_tangent", SourceSemantic::morph_tangent, "f32[3] deltas, set = target")}},
+        {"ProxyOrigin", listProxyOrigins()},
         {"SpecularMasking",
          {value("separable", SpecularMasking::separable, "G1(view) G1(light)"),
           value("correlated", SpecularMasking::correlated, "height-correlated: that of the runtime's BRDF")}},
@@ -188,7 +200,7 @@ std::string typeText(const Field& field)
     std::string type(field.type);
     if (!type.ends_with("[]"))
         return type;
-    const size_t element = type.starts_with("u8") ? 1 : 4;
+    const size_t element = type.starts_with("u8") ? 1 : type.starts_with("u16") ? 2 : 4;
     return type.substr(0, type.size() - 1) + std::to_string(field.size / element) + "]";
 }
 

@@ -159,6 +159,8 @@ Status checkReceiverTables(const PackView& view);
 Status checkReceiverReferences(const PackView& view);
 /// Check that the faces that are receivers are those of the grid, which is checked.
 Status checkFaceReferences(const PackView& view);
+Status checkProxyTables(const PackView& view);
+Status checkProxyReferences(const PackView& view);
 Status checkSurroundings(const PackView& view);
 Status checkBrickTables(const PackView& view);
 

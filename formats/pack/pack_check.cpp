@@ -130,6 +130,11 @@ Status checkReceivers(const PackView& view)
     return check::checkReceiverTables(view);
 }
 
+Status checkProxies(const PackView& view)
+{
+    return check::checkProxyTables(view);
+}
+
 Status checkBricks(const PackView& view)
 {
     return check::checkBrickTables(view);
@@ -160,6 +165,8 @@ Status checkPackWith(const PackView& view, check::BulkData bulk, const CheckHier
     HEARTH_TRY(check::checkDeformedMeshes(view));
     HEARTH_TRY(check::checkAssets(view));
     HEARTH_TRY(check::checkExtras(view));
+    HEARTH_TRY(checkProxies(view));
+    HEARTH_TRY(check::checkProxyReferences(view));
     HEARTH_TRY(checkSpecular(view));
     HEARTH_TRY(checkProbes(view));
     HEARTH_TRY(checkReceivers(view));

@@ -61,6 +61,9 @@ Status checkProbes(const PackView& view);
 /// Check only the receivers: the contents of a receivers part. Lights and instances are in the import part.
 Status checkReceivers(const PackView& view);
 
+/// Check only the proxies: the contents of a proxy part. Meshes and materials are in other parts.
+Status checkProxies(const PackView& view);
+
 /// Check only the grid of bricks: the contents of a bricks part.
 Status checkBricks(const PackView& view);
 

@@ -103,7 +103,16 @@ Status PackView::readTables(PageBytes page_bytes)
         else
             status = std::move(records).error();
     };
-    std::apply([&](auto&... table) { (read(table), ...); }, tables());
+    const auto read_all = [&](auto&... tables) { (read(tables), ...); };
+    read_all(assets_, extras_, nodes_, instances_, cameras_, lights_, shadow_spheres_, materials_,
+             material_layers_, images_, texture_pieces_, skins_, joints_, animations_, channels_, keys_,
+             key_bits_, morph_weights_, meshes_, levels_, groups_, clusters_, pages_, page_parents_,
+             authored_levels_, deformed_meshes_, deformed_clusters_, cluster_joints_, specular_tables_,
+             probes_, probe_texels_, receiver_atlases_, receiver_lamps_, receiver_rects_, receiver_blocks_,
+             receiver_words_, face_atlases_, face_blocks_, face_words_, proxies_, proxy_sections_,
+             proxy_positions_, proxy_indices_, proxy_bindings_, surroundings_, radiance_transfers_,
+             brick_grid_, brick_groups_, bricks_, brick_opacity_, brick_albedo_, brick_normals_,
+             brick_emission_, brick_lighting_, reflectors_);
     HEARTH_TRY(status);
     HEARTH_ASSIGN_OR_RETURN(meta_, reader_.read(kChunkMeta));
     HEARTH_ASSIGN_OR_RETURN(strings_, reader_.read(kChunkStrings));

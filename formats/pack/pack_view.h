@@ -14,6 +14,7 @@
 #include "formats/records/mesh.h"
 #include "formats/records/probe.h"
 #include "formats/records/provenance.h"
+#include "formats/records/proxy.h"
 #include "formats/records/receivers.h"
 #include "formats/records/scene.h"
 #include "formats/records/specular.h"
@@ -22,7 +23,6 @@
 #include <array>
 #include <cstring>
 #include <optional>
-#include <tuple>
 
 namespace hearth::formats
 {
@@ -374,6 +374,13 @@ public:
                 face_blocks_.records.span(),
                 face_words_.records.span()};
     }
+    /// Return the proxies of all meshes, sorted by mesh, and the tables that their ranges are of.
+    std::span<const ProxyRecord> proxies() const { return proxies_.records.span(); }
+    std::span<const ProxySectionRecord> proxySections() const { return proxy_sections_.records.span(); }
+    std::span<const Float3> proxyPositions() const { return proxy_positions_.records.span(); }
+    std::span<const uint32_t> proxyIndices() const { return proxy_indices_.records.span(); }
+    std::span<const ProxyBindingRecord> proxyBindings() const { return proxy_bindings_.records.span(); }
+
     /// Return the surroundings of each instance; empty if nothing is baked.
     std::span<const SurroundingsRecord> surroundings() const { return surroundings_.records.span(); }
     std::span<const RadianceTransferRecord> radianceTransfers() const
@@ -434,19 +441,6 @@ private:
     Result<std::span<const std::byte>> storedPage(uint32_t page, size_t size) const;
     Status decodeStored(std::span<const std::byte> stored, uint32_t page, std::span<std::byte> out) const;
     Result<std::span<const std::byte>> decodeAndCheckPage(uint32_t page, size_t size) const;
-    /// Return all tables, as readTables() reads them.
-    auto tables()
-    {
-        return std::tie(assets_, extras_, nodes_, instances_, cameras_, lights_, shadow_spheres_, materials_,
-                        material_layers_, images_, texture_pieces_, skins_, joints_, animations_, channels_,
-                        keys_, key_bits_, morph_weights_, meshes_, levels_, groups_, clusters_, pages_,
-                        page_parents_, authored_levels_, deformed_meshes_, deformed_clusters_,
-                        cluster_joints_, specular_tables_, probes_, probe_texels_, receiver_atlases_,
-                        receiver_lamps_, receiver_rects_, receiver_blocks_, receiver_words_, face_atlases_,
-                        face_blocks_, face_words_, surroundings_, radiance_transfers_, brick_grid_,
-                        brick_groups_, bricks_, brick_opacity_, brick_albedo_, brick_normals_,
-                        brick_emission_, brick_lighting_, reflectors_);
-    }
     static std::string_view asText(const ChunkData& data)
     {
         return {reinterpret_cast<const char*>(data.bytes().data()), data.bytes().size()};
@@ -494,6 +488,11 @@ private:
     Table<ReceiverAtlasRecord> face_atlases_{kChunkFaceReceivers};
     Table<ReceiverBlockRecord> face_blocks_{kChunkFaceBlocks};
     Table<uint32_t> face_words_{kChunkFaceWords};
+    Table<ProxyRecord> proxies_{kChunkProxies};
+    Table<ProxySectionRecord> proxy_sections_{kChunkProxySections};
+    Table<Float3> proxy_positions_{kChunkProxyPositions};
+    Table<uint32_t> proxy_indices_{kChunkProxyIndices};
+    Table<ProxyBindingRecord> proxy_bindings_{kChunkProxyBindings};
     Table<SurroundingsRecord> surroundings_{kChunkSurroundings};
     Table<RadianceTransferRecord> radiance_transfers_{kChunkRadianceTransfers};
     Table<BrickGridRecord> brick_grid_{kChunkBrickGrid};

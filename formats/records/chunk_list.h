@@ -9,6 +9,7 @@
 #include "formats/records/mesh.h"
 #include "formats/records/probe.h"
 #include "formats/records/provenance.h"
+#include "formats/records/proxy.h"
 #include "formats/records/receivers.h"
 #include "formats/records/scene.h"
 #include "formats/records/specular.h"
@@ -109,6 +110,14 @@ inline constexpr std::array kChunkList{
               "which joints move each of these clusters, and their shares in its frame"},
     makeTableInfo<DeformedGroupRecord>(kChunkDeformedGroups, 1, ChunkPurpose::other,
                                        "parts only: where their groups can be"),
+    makeTableInfo<ProxyRecord>(kChunkProxies, 1, ChunkPurpose::geometry,
+                               "proxies: simple meshes that stand for others"),
+    makeTableInfo<ProxySectionRecord>(kChunkProxySections, 1, ChunkPurpose::geometry,
+                                      "sections of all proxies: by material, or convex parts"),
+    ChunkInfo{kChunkProxyPositions, 1, ChunkPurpose::geometry, "f32[3][]", false, "of all proxies"},
+    ChunkInfo{kChunkProxyIndices, 1, ChunkPurpose::geometry, "u32[]", false, "of all proxies"},
+    makeTableInfo<ProxyBindingRecord>(kChunkProxyBindings, 1, ChunkPurpose::geometry,
+                                      "where vertices of meshes are on their proxies"),
     makeTableInfo<SpecularTableRecord>(kChunkSpecular, 1, ChunkPurpose::light,
                                        "the table of specular occlusion, one at most"),
     makeTableInfo<ProbeRecord>(kChunkProbes, 3, ChunkPurpose::light, "light probes"),

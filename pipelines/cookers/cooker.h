@@ -45,6 +45,8 @@ struct Cooker
     /// key of the setting that switches the cooker (settings::switchSetting, or a list): it runs unless this
     /// is off, or an empty list; empty: it always runs
     std::string_view switched_by{};
+    /// values of that setting for which it runs; empty: all but off
+    std::vector<std::string_view> runs_for{};
     /// Cookers whose parts it reads, in the order of its command line. A cooker of the pack reads the parts
     /// of each source.
     std::vector<std::string_view> reads{};
@@ -69,7 +71,8 @@ struct Cooker
     bool is_linked = true;
     /// cooker whose chunks its part contains too: where it runs, only its own part is linked; empty: none
     std::string_view replaces{};
-    /// option of hearth-link before the part of a cooker of the pack
+    /// option of hearth-link before the part of a cooker of the pack; and of one of sources that need not run,
+    /// whose part has the source's number before it, "0="
     std::string_view link_option{};
     std::string_view extension = ".part"; ///< of its output's name
     bool has_statistics = false;          ///< true: with --stats it writes JSON about its work, for reports

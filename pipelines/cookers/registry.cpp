@@ -14,6 +14,7 @@ Cooker describeEstimates();
 Cooker describeBudget();
 Cooker describeTexels();
 Cooker describeSkinning();
+Cooker describeProxy();
 Cooker describeNeighbours();
 Cooker describeVisibility();
 Cooker describeSpecular();
@@ -33,9 +34,10 @@ using settings::Values;
 std::vector<Cooker> makeCookers()
 {
     std::vector<Cooker> cookers{
-        describeImport(), describeClusters(), describeTextures(),   describeEstimates(),   describeBudget(),
-        describeTexels(), describeSkinning(), describeNeighbours(), describeVisibility(),  describeSpecular(),
-        describeProbe(),  describeBricks(),   describeReceivers(),  describeReflections(), describeLink()};
+        describeImport(),     describeClusters(),   describeTextures(),    describeEstimates(),
+        describeBudget(),     describeTexels(),     describeSkinning(),    describeProxy(),
+        describeNeighbours(), describeVisibility(), describeSpecular(),    describeProbe(),
+        describeBricks(),     describeReceivers(),  describeReflections(), describeLink()};
     for (Cooker& cooker : cookers)
         for (Setting& setting : cooker.settings)
             setting.scope = cooker.scope;
@@ -83,6 +85,10 @@ bool isEnabled(const Cooker& cooker, const Values& of_pack, std::span<const Valu
     const auto isNotOff = [&](const Values& values)
     {
         const settings::Value* const value = settings::findValue(values, setting->key);
+        if (!cooker.runs_for.empty())
+            return std::ranges::find(cooker.runs_for,
+                                     settings::choiceOr(values, setting->key, setting->default_text)) !=
+                   cooker.runs_for.end();
         return value == nullptr ? setting->default_text != "off"
                                 : value->text != "\"off\"" && value->text != "[]";
     };

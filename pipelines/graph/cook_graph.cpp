@@ -250,6 +250,20 @@ size_t linkedAction(const Cooker& cooker, const ActionIndices& actions)
     return actions.at(cooker.name);
 }
 
+/// Add the parts of cookers that need not run for each source.
+void addPartsOfSomeSources(const Draft& draft, Action& link)
+{
+    for (size_t source = 0; source < draft.actions_of_source.size(); ++source)
+        for (const auto& [name, index] : draft.actions_of_source[source])
+        {
+            const Cooker& cooker = *cookers::findCooker(name);
+            if (!cooker.is_linked || cooker.link_option.empty())
+                continue;
+            addWord(link, cooker.link_option);
+            addInput(link, sourcePartInput(draft.graph, index), fmt::format("{}=", source));
+        }
+}
+
 /// Add the action that makes the pack. errors: those of addArguments
 Status addLink(Draft& draft)
 {
@@ -257,8 +271,10 @@ Status addLink(Draft& draft)
     Action link = makeAction(cooker, draft.settings.sources.size(), draft.settings.output);
     for (const ActionIndices& actions : draft.actions_of_source)
         for (const Cooker& read : cookers::allCookers())
-            if (actions.contains(read.name) && read.is_linked && read.replaces.empty())
+            if (actions.contains(read.name) && read.is_linked && read.replaces.empty() &&
+                read.link_option.empty())
                 addInput(link, sourcePartInput(draft.graph, linkedAction(read, actions)));
+    addPartsOfSomeSources(draft, link);
     for (const Cooker& read : cookers::allCookers())
     {
         const auto found = draft.actions_of_pack.find(read.name);

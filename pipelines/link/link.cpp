@@ -42,6 +42,7 @@ struct Source
     PackView clusters_part;
     PackView textures_part;
     PackView skinning_part;
+    PackView proxy_part;                          ///< the import part where it has none of its own
     Records<DeformedGroupRecord> deformed_groups; ///< of the skinning part
     std::vector<uint32_t> instance_meshes;        ///< of the clusters part
     std::string name;                             ///< of the asset
@@ -121,14 +122,17 @@ Result<Source> openSource(const SourceParts& parts)
     HEARTH_ASSIGN_OR_RETURN(PackView clusters_part, openPart(parts.clusters_part));
     HEARTH_ASSIGN_OR_RETURN(PackView textures_part, openPart(parts.textures_part));
     HEARTH_ASSIGN_OR_RETURN(PackView skinning_part, openPart(parts.skinning_part));
+    HEARTH_ASSIGN_OR_RETURN(PackView proxy_part,
+                            openPart(parts.proxy_part.empty() ? parts.import_part : parts.proxy_part));
+    HEARTH_TRY(checkProxies(proxy_part));
     HEARTH_ASSIGN_OR_RETURN(Records<DeformedGroupRecord> deformed_groups,
                             skinning_part.container().records<DeformedGroupRecord>(kChunkDeformedGroups));
     HEARTH_ASSIGN_OR_RETURN(std::vector<uint32_t> instance_meshes,
                             readInstanceMeshes(import_part, clusters_part));
     std::string name = readAssetName(import_part.meta());
-    Source source{std::move(import_part),   std::move(clusters_part),   std::move(textures_part),
-                  std::move(skinning_part), std::move(deformed_groups), std::move(instance_meshes),
-                  std::move(name)};
+    Source source{std::move(import_part),     std::move(clusters_part), std::move(textures_part),
+                  std::move(skinning_part),   std::move(proxy_part),    std::move(deformed_groups),
+                  std::move(instance_meshes), std::move(name)};
     HEARTH_TRY(checkSameSource(source));
     return source;
 }
@@ -148,6 +152,7 @@ bool advanceOffsets(const Source& source, TableOffsets& next)
     const PackView& scene = source.import_part;
     const PackView& meshes = source.clusters_part;
     const PackView& deformed = source.skinning_part;
+    const PackView& proxies = source.proxy_part;
     next = source.offsets;
     next.strings = source.offsets.mesh_strings;
     next.page_bytes += alignChunk(meshes.pageBytes().size());
@@ -171,6 +176,10 @@ bool advanceOffsets(const Source& source, TableOffsets& next)
            advanceOffset(next.pages, meshes.pages().size()) &&
            advanceOffset(next.page_parents, meshes.pageParents().size()) &&
            advanceOffset(next.radiance_transfers, meshes.radianceTransfers().size()) &&
+           advanceOffset(next.proxy_sections, proxies.proxySections().size()) &&
+           advanceOffset(next.proxy_positions, proxies.proxyPositions().size()) &&
+           advanceOffset(next.proxy_indices, proxies.proxyIndices().size()) &&
+           advanceOffset(next.proxy_bindings, proxies.proxyBindings().size()) &&
            advanceOffset(next.deformed_clusters, deformed.deformedClusters().size()) &&
            advanceOffset(next.cluster_joints, deformed.clusterJoints().size());
 }
@@ -457,6 +466,23 @@ Status writeAuthoredLevels(ContainerWriter& writer, std::span<const Source> sour
                       &PackView::authoredLevels);
 }
 
+/// Write the proxies of all sources; no chunks if there are none.
+Status writeProxies(ContainerWriter& writer, std::span<const Source> sources)
+{
+    const auto hasSome = [](const Source& source) { return !source.proxy_part.proxies().empty(); };
+    if (std::ranges::none_of(sources, hasSome))
+        return success();
+    const auto write = [&]<typename T>(uint32_t type, std::span<const T> (PackView::*table)() const)
+    { return writeTable(writer, sources, type, &Source::proxy_part, table); };
+    HEARTH_TRY(write(kChunkProxies, &PackView::proxies));
+    HEARTH_TRY(write(kChunkProxySections, &PackView::proxySections));
+    const auto join = [&]<typename T>(uint32_t type, std::span<const T> (PackView::*table)() const)
+    { return writeJoined(writer, sources, type, &Source::proxy_part, table); };
+    HEARTH_TRY(join(kChunkProxyPositions, &PackView::proxyPositions));
+    HEARTH_TRY(join(kChunkProxyIndices, &PackView::proxyIndices));
+    return join(kChunkProxyBindings, &PackView::proxyBindings);
+}
+
 /// Write the surroundings of instances; no chunks if no source has any.
 Status writeSurroundings(ContainerWriter& writer, std::span<const Source> sources)
 {
@@ -702,6 +728,7 @@ Status writePack(const std::string& path, std::span<const Source> sources, const
     HEARTH_TRY(writeMeshes(writer, sources));
     HEARTH_TRY(writeAuthoredLevels(writer, sources));
     HEARTH_TRY(writeDeformedMeshes(writer, sources));
+    HEARTH_TRY(writeProxies(writer, sources));
     HEARTH_TRY(writeReflectionTables(writer, pack_parts));
     HEARTH_TRY(writeSurroundings(writer, sources));
     HEARTH_TRY(copyTables(writer, pack_parts.bricks, kBrickChunks));

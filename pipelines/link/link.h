@@ -18,6 +18,8 @@ struct SourceParts
     std::string clusters_part;
     std::string textures_part;
     std::string skinning_part;
+    /// part with proxies of its meshes; empty: those of the import part, which artists made, if any
+    std::string proxy_part{};
 };
 
 /// Parts of what a pack has once, for all of its sources.

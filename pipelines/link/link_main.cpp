@@ -1,15 +1,33 @@
-// hearth-link: merges import, clusters, textures and skinning parts into a pack, with a table of specular
+// hearth-link: merges import, clusters, textures and skinning parts into a pack, with proxies, a table of specular
 // occlusion, light probes, a grid of bricks and receivers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
 #include "formats/base/program.h"
 #include "pipelines/link/link.h"
 
+#include <algorithm>
+#include <charconv>
 #include <cstdio>
+#include <string>
 #include <vector>
 
 namespace
 {
+
+/// Give a source its proxy part.
+/// text  "N=PART"
+/// returns  false if it names no source
+bool addProxyPart(const std::string& text, std::vector<hearth::link::SourceParts>& sources)
+{
+    const size_t equals = text.find('=');
+    size_t source = 0;
+    const auto parsed = std::from_chars(text.data(), text.data() + std::min(equals, text.size()), source);
+    if (equals == std::string::npos || parsed.ec != std::errc() || parsed.ptr != text.data() + equals ||
+        source >= sources.size())
+        return false;
+    sources[source].proxy_part = text.substr(equals + 1);
+    return true;
+}
 
 int program(int argc, char** argv)
 {
@@ -21,6 +39,10 @@ int program(int argc, char** argv)
     uint64_t texture_budget = 0;
     app.addOption("PARTS", parts, "import, clusters, textures and skinning part of each source").required();
     app.addOption("-o,--output", output, "pack to write").required();
+    std::vector<std::string> proxies;
+    app.addOption("--proxies", proxies,
+                  "N=PART: proxy part of source N, counted from 0; once for each source that has one")
+        .oneValueEach();
     app.addOption("--specular", pack_parts.specular, "specular part, whose table the pack gets; once each")
         .oneValueEach();
     app.addOption("--bricks", pack_parts.bricks, "bricks part, whose grid the pack gets");
@@ -51,6 +73,12 @@ int program(int argc, char** argv)
     std::vector<hearth::link::SourceParts> sources;
     for (size_t i = 0; i < parts.size(); i += 4)
         sources.push_back({parts[i], parts[i + 1], parts[i + 2], parts[i + 3]});
+    for (const std::string& proxy : proxies)
+        if (!addProxyPart(proxy, sources))
+            return hearth::reportFailure({hearth::Issue::usage, "hearth-link", "--proxies",
+                                          proxy +
+                                              ": the number of a source is needed before the part, below " +
+                                              std::to_string(sources.size()) + ", as in 0=rock.proxy.part"});
     const hearth::Status status =
         hearth::link::linkPack(sources, output, pack_parts, skipped, texture_budget);
     return status.ok() ? 0 : reportFailure(status.error());

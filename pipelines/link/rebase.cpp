@@ -209,6 +209,20 @@ void rebase(DeformedClusterRecord& cluster, const TableOffsets& offsets)
     addOffset(cluster.joints, offsets.cluster_joints);
 }
 
+void rebase(ProxyRecord& proxy, const TableOffsets& offsets)
+{
+    addOffset(proxy.mesh, offsets.meshes);
+    addOffset(proxy.positions, offsets.proxy_positions);
+    addOffset(proxy.indices, offsets.proxy_indices);
+    addOffset(proxy.sections, offsets.proxy_sections);
+    addOffset(proxy.bindings, offsets.proxy_bindings);
+}
+
+void rebase(ProxySectionRecord& section, const TableOffsets& offsets)
+{
+    addOffset(section.material, offsets.materials);
+}
+
 void rebase(SurroundingsRecord& surroundings, const TableOffsets& offsets)
 {
     addOffset(surroundings.transfer, offsets.radiance_transfers);

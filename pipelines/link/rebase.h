@@ -7,6 +7,7 @@
 #include "formats/records/material_layers.h"
 #include "formats/records/mesh.h"
 #include "formats/records/provenance.h"
+#include "formats/records/proxy.h"
 #include "formats/records/scene.h"
 #include "formats/records/surroundings.h"
 
@@ -40,6 +41,10 @@ struct TableOffsets
     uint32_t deformed_clusters = 0;
     uint32_t cluster_joints = 0;
     uint32_t radiance_transfers = 0;
+    uint32_t proxy_sections = 0;
+    uint32_t proxy_positions = 0;
+    uint32_t proxy_indices = 0;
+    uint32_t proxy_bindings = 0;
     uint64_t page_bytes = 0; ///< in chunk PAGE
 };
 
@@ -64,6 +69,8 @@ void rebase(formats::PageRecord& page, const TableOffsets& offsets);
 void rebase(formats::AuthoredLevelRecord& level, const TableOffsets& offsets);
 void rebase(formats::DeformedMeshRecord& mesh, const TableOffsets& offsets);
 void rebase(formats::DeformedClusterRecord& cluster, const TableOffsets& offsets);
+void rebase(formats::ProxyRecord& proxy, const TableOffsets& offsets);
+void rebase(formats::ProxySectionRecord& section, const TableOffsets& offsets);
 void rebase(formats::SurroundingsRecord& surroundings, const TableOffsets& offsets);
 void rebase(uint32_t& page_parent, const TableOffsets& offsets);
 

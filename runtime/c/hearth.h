@@ -833,7 +833,8 @@ enum
     HEARTH_TABLE_LIGHTS = 6,
     HEARTH_TABLE_SKINS = 7,
     HEARTH_TABLE_ANIMATIONS = 8,
-    HEARTH_TABLE_ASSETS = 9 /* 1.7: the sources of the pack, by file name */
+    HEARTH_TABLE_ASSETS = 9,  /* 1.7: the sources of the pack, by file name */
+    HEARTH_TABLE_PROXIES = 10 /* 1.8: they have the names of their meshes */
 };
 
 /* Count the records of a table (HEARTH_TABLE_*). errors: USAGE. */
@@ -940,6 +941,63 @@ typedef struct hearth_pack_camera
 HEARTH_API hearth_result hearth_pack_get_camera(const hearth_pack* pack, uint32_t index,
                                                 hearth_pack_camera* camera, char* message,
                                                 size_t message_size);
+
+/* ---- Proxies (1.8), on any thread ----
+ *
+ * Simple meshes that stand for others: for collision, for sound, as occluders of the game's own. They are in the
+ * object space and the bind pose of their mesh, and sorted by mesh. */
+
+enum
+{
+    HEARTH_PROXY_CLEANED = 0, /* the mesh itself, repaired and decimated */
+    HEARTH_PROXY_WRAPPED = 1, /* a closed surface around the mesh */
+    HEARTH_PROXY_AUTHORED = 2 /* a mesh that an artist made for it */
+};
+
+/* Triangles with one material, or one convex part. */
+typedef struct hearth_proxy_section
+{
+    uint32_t first_triangle;
+    uint32_t triangle_count;
+    uint32_t material;  /* record of HEARTH_TABLE_MATERIALS; UINT32_MAX: unknown */
+    uint32_t is_convex; /* 1: a convex solid of its own; else 0 */
+} hearth_proxy_section;
+
+/* Place on a proxy that a vertex of the mesh belongs to. */
+typedef struct hearth_proxy_binding
+{
+    uint32_t triangle;
+    uint16_t weights[2]; /* barycentric weights of the second and third corner, over 65535 */
+    float distance;      /* metres from the vertex to that place */
+} hearth_proxy_binding;
+
+/* Proxy of a mesh. Its arrays are valid while the pack is open. */
+typedef struct hearth_proxy
+{
+    uint32_t struct_size;
+    uint32_t mesh;
+    uint32_t origin;     /* HEARTH_PROXY_* */
+    uint32_t is_closed;  /* 1: it has no boundary, and an inside; else 0 */
+    float distance;      /* metres: no point of the proxy is farther from the mesh; infinity: unknown */
+    float mesh_distance; /* metres: no point of the mesh is farther from the proxy; infinity: unknown */
+    uint32_t position_count;
+    uint32_t index_count;   /* three a triangle */
+    uint32_t section_count; /* sections hold all triangles, in order */
+    uint32_t binding_count; /* 0, or one for each vertex of the mesh's first level, cluster by cluster */
+    const float* positions; /* x, y and z of each; metres */
+    const uint32_t* indices;
+    const hearth_proxy_section* sections;
+    const hearth_proxy_binding* bindings;
+} hearth_proxy;
+
+#define HEARTH_PROXY_INIT                                                                                    \
+    {                                                                                                        \
+        sizeof(hearth_proxy), 0, 0, 0, 0, 0, 0, 0, 0, 0, NULL, NULL, NULL, NULL                              \
+    }
+
+/* errors: USAGE, also if there is no such proxy. */
+HEARTH_API hearth_result hearth_pack_get_proxy(const hearth_pack* pack, uint32_t index, hearth_proxy* proxy,
+                                               char* message, size_t message_size);
 
 /* ---- Animation clips (1.2): played on the CPU, for a frame's moves, poses and lights (1.8). ---- */
 

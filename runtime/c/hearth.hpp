@@ -148,6 +148,14 @@ public:
                                { return hearth_pack_get_camera(get(), index, &camera, text, size); });
     }
 
+    /// The arrays of the proxy are valid while the pack is open.
+    [[nodiscard]] hearth_result getProxy(uint32_t index, hearth_proxy& proxy,
+                                         std::string* message = nullptr) const
+    {
+        return callWithMessage(message, [&](char* text, size_t size)
+                               { return hearth_pack_get_proxy(get(), index, &proxy, text, size); });
+    }
+
     const char* lastError() const { return hearth_pack_last_error(get()); }
 };
 

@@ -1,9 +1,11 @@
-// Tables of a pack: counts, names, extras, instances and cameras.
+// Tables of a pack: counts, names, extras, instances, cameras and proxies.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/c/handles.h"
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
+#include <span>
 
 using namespace hearth;
 using namespace hearth::c;
@@ -12,9 +14,9 @@ namespace
 {
 
 /// A record of each table, in the order of HEARTH_TABLE_*.
-constexpr std::array kRecordNames{"node",   "instance", "mesh", "material",  "image",
-                                  "camera", "light",    "skin", "animation", "asset"};
-static_assert(kRecordNames.size() == HEARTH_TABLE_ASSETS + 1);
+constexpr std::array kRecordNames{"node",  "instance", "mesh",      "material", "image", "camera",
+                                  "light", "skin",     "animation", "asset",    "proxy"};
+static_assert(kRecordNames.size() == HEARTH_TABLE_PROXIES + 1);
 
 /// Table of the objects of each kind of extras, in the order of HEARTH_EXTRAS_*.
 constexpr std::array kExtrasTables{HEARTH_TABLE_NODES,      HEARTH_TABLE_MESHES, HEARTH_TABLE_MATERIALS,
@@ -28,6 +30,18 @@ static_assert(HEARTH_EXTRAS_FILE == static_cast<int>(formats::ExtrasOwner::file)
 
 static_assert(HEARTH_CAMERA_PERSPECTIVE == static_cast<int>(formats::CameraType::perspective));
 static_assert(HEARTH_CAMERA_ORTHOGRAPHIC == static_cast<int>(formats::CameraType::orthographic));
+
+static_assert(HEARTH_PROXY_CLEANED == static_cast<int>(formats::ProxyOrigin::cleaned));
+static_assert(HEARTH_PROXY_WRAPPED == static_cast<int>(formats::ProxyOrigin::wrapped));
+static_assert(HEARTH_PROXY_AUTHORED == static_cast<int>(formats::ProxyOrigin::authored));
+// the caller gets records as they lie in the pack
+static_assert(sizeof(hearth_proxy_section) == sizeof(formats::ProxySectionRecord));
+static_assert(offsetof(hearth_proxy_section, material) == offsetof(formats::ProxySectionRecord, material));
+static_assert(offsetof(hearth_proxy_section, is_convex) == offsetof(formats::ProxySectionRecord, is_convex));
+static_assert(sizeof(hearth_proxy_binding) == sizeof(formats::ProxyBindingRecord));
+static_assert(offsetof(hearth_proxy_binding, weights) == offsetof(formats::ProxyBindingRecord, weights));
+static_assert(offsetof(hearth_proxy_binding, distance) == offsetof(formats::ProxyBindingRecord, distance));
+static_assert(sizeof(Float3) == 3 * sizeof(float));
 
 /// Return `use` of the table's records: a number or a string. `table` is one of HEARTH_TABLE_*.
 template <typename Use>
@@ -53,6 +67,8 @@ auto withRecords(const formats::PackView& view, uint32_t table, const Use& use)
         return use(view.skins());
     case HEARTH_TABLE_ANIMATIONS:
         return use(view.animations());
+    case HEARTH_TABLE_PROXIES:
+        return use(view.proxies());
     default:
         return use(view.assets());
     }
@@ -67,6 +83,11 @@ std::string_view readName(const formats::PackView& view, const Record& record)
 std::string_view readName(const formats::PackView& view, const formats::InstanceRecord& instance)
 {
     return readName(view, view.nodes()[instance.node]);
+}
+
+std::string_view readName(const formats::PackView& view, const formats::ProxyRecord& proxy)
+{
+    return readName(view, view.meshes()[proxy.mesh]);
 }
 
 Status checkTable(const hearth_pack* pack, uint32_t table)
@@ -133,6 +154,32 @@ hearth_pack_camera toC(const formats::CameraRecord& record)
     copyRows(record.world_from_camera, camera.world_from_camera);
     camera.view = makeCamera(record);
     return camera;
+}
+
+/// Return the records of a range, as C sees them; null for an empty one.
+template <typename To, typename From>
+const To* readRange(std::span<const From> table, formats::Range range)
+{
+    return range.count == 0 ? nullptr : reinterpret_cast<const To*>(&table[range.first]);
+}
+
+hearth_proxy toC(const formats::PackView& view, const formats::ProxyRecord& record)
+{
+    hearth_proxy proxy = HEARTH_PROXY_INIT;
+    proxy.mesh = record.mesh;
+    proxy.origin = record.origin;
+    proxy.is_closed = record.is_closed;
+    proxy.distance = record.distance;
+    proxy.mesh_distance = record.mesh_distance;
+    proxy.position_count = record.positions.count;
+    proxy.index_count = record.indices.count;
+    proxy.section_count = record.sections.count;
+    proxy.binding_count = record.bindings.count;
+    proxy.positions = readRange<float>(view.proxyPositions(), record.positions);
+    proxy.indices = readRange<uint32_t>(view.proxyIndices(), record.indices);
+    proxy.sections = readRange<hearth_proxy_section>(view.proxySections(), record.sections);
+    proxy.bindings = readRange<hearth_proxy_binding>(view.proxyBindings(), record.bindings);
+    return proxy;
 }
 
 } // namespace
@@ -213,6 +260,20 @@ hearth_result hearth_pack_get_camera(const hearth_pack* pack, uint32_t index, he
                     HEARTH_TRY(checkRecord(pack, HEARTH_TABLE_CAMERAS, index));
                     HEARTH_TRY(checkStruct("camera", camera));
                     *camera = toC(pack->pack.view().cameras()[index]);
+                    return success();
+                });
+}
+
+hearth_result hearth_pack_get_proxy(const hearth_pack* pack, uint32_t index, hearth_proxy* proxy,
+                                    char* message, size_t message_size)
+{
+    return call({message, message_size}, __func__,
+                [&]() -> Status
+                {
+                    HEARTH_TRY(checkRecord(pack, HEARTH_TABLE_PROXIES, index));
+                    HEARTH_TRY(checkStruct("proxy", proxy));
+                    const formats::PackView& view = pack->pack.view();
+                    *proxy = toC(view, view.proxies()[index]);
                     return success();
                 });
 }

@@ -309,6 +309,7 @@ INSTANTIATE_TEST_SUITE_P(Specular, MalformedPackTest, testing::ValuesIn(malforme
                          kCaseName);
 INSTANTIATE_TEST_SUITE_P(Probes, MalformedPackTest, testing::ValuesIn(malformedProbes()), kCaseName);
 INSTANTIATE_TEST_SUITE_P(Receivers, MalformedPackTest, testing::ValuesIn(malformedReceivers()), kCaseName);
+INSTANTIATE_TEST_SUITE_P(Proxies, MalformedPackTest, testing::ValuesIn(malformedProxies()), kCaseName);
 INSTANTIATE_TEST_SUITE_P(Surroundings, MalformedPackTest, testing::ValuesIn(malformedSurroundings()),
                          kCaseName);
 INSTANTIATE_TEST_SUITE_P(Bricks, MalformedPackTest, testing::ValuesIn(malformedBricks()), kCaseName);

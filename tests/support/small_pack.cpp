@@ -303,6 +303,32 @@ void addReceivers(PackModel& pack)
     pack.receiver_atlases = {{6, 4, 0, 0.5f, 3, 2, 2, 10, 3, {1, 0, 0, 1}, {}}};
 }
 
+/// Two proxies: a closed tetrahedron of two sections for the strip, with bindings; an open triangle for the last
+/// mesh, without.
+void addProxies(PackModel& pack)
+{
+    uint32_t vertices = 0;
+    const Range clusters = pack.levels[pack.meshes[0].levels.first].clusters;
+    for (uint32_t c = clusters.first; c < clusters.first + clusters.count; ++c)
+        vertices += pack.clusters[c].vertex_count;
+    pack.proxy_positions = {{0, 0, 0}, {2, 0, 0}, {0, 0, -2}, {0, 1, 0}, {0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    pack.proxy_indices = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3, 0, 1, 2};
+    pack.proxy_sections = {{{0, 1}, 0, 0}, {{1, 3}, kInvalidIndex, 1}, {{0, 1}, kInvalidIndex, 0}};
+    for (uint32_t v = 0; v < vertices; ++v)
+        pack.proxy_bindings.push_back({v % 4, {16384, 32768}, 0.25f});
+    pack.proxies = {{0, 0, 1, 0.5f, 0.25f, {0, 4}, {0, 12}, {0, 2}, {0, vertices}, {}},
+                    {static_cast<uint32_t>(pack.meshes.size() - 1),
+                     2,
+                     0,
+                     kInfinity,
+                     kInfinity,
+                     {4, 3},
+                     {12, 3},
+                     {2, 1},
+                     {vertices, 0},
+                     {}}};
+}
+
 /// Light of occluders at the last instance; the visibility of others is that of their mesh.
 void addSurroundings(PackModel& pack)
 {
@@ -661,6 +687,11 @@ std::vector<ChunkImage> PackModel::chunks(bool compressed) const
     table(kChunkDeformedMeshes, deformed_meshes);
     table(kChunkDeformedClusters, deformed_clusters);
     table(kChunkClusterJoints, cluster_joints);
+    table(kChunkProxies, proxies);
+    table(kChunkProxySections, proxy_sections);
+    table(kChunkProxyPositions, proxy_positions);
+    table(kChunkProxyIndices, proxy_indices);
+    table(kChunkProxyBindings, proxy_bindings);
     table(kChunkSpecular, specular_tables);
     table(kChunkProbes, probes);
     table(kChunkProbeTexels, probe_texels);
@@ -705,6 +736,7 @@ PackModel smallPack()
     addSpecularTable(pack);
     addProbe(pack);
     addReceivers(pack);
+    addProxies(pack);
     addSurroundings(pack);
     addBricks(pack);
     addFaceReceivers(pack);

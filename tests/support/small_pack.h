@@ -8,6 +8,7 @@
 #include "formats/records/mesh.h"
 #include "formats/records/probe.h"
 #include "formats/records/provenance.h"
+#include "formats/records/proxy.h"
 #include "formats/records/receivers.h"
 #include "formats/records/scene.h"
 #include "formats/records/specular.h"
@@ -69,6 +70,11 @@ struct PackModel
     std::vector<formats::ReceiverAtlasRecord> face_atlases;
     std::vector<formats::ReceiverBlockRecord> face_blocks;
     std::vector<uint32_t> face_words;
+    std::vector<formats::ProxyRecord> proxies;
+    std::vector<formats::ProxySectionRecord> proxy_sections;
+    std::vector<Float3> proxy_positions;
+    std::vector<uint32_t> proxy_indices;
+    std::vector<formats::ProxyBindingRecord> proxy_bindings;
     std::vector<formats::SurroundingsRecord> surroundings;
     std::vector<formats::RadianceTransferRecord> radiance_transfers;
     std::vector<uint32_t> instance_meshes; ///< parts only

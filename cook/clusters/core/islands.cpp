@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/core/islands.h"
 
+#include "cook/mesh/disjoint_sets.h"
+
 #include "formats/base/assert.h"
 
 #include <algorithm>
@@ -18,35 +20,11 @@ constexpr uint32_t kMaxSmallIsland = 32;
 
 } // namespace
 
-DisjointSets::DisjointSets(size_t count) : parent_(count)
-{
-    std::iota(parent_.begin(), parent_.end(), 0u);
-}
-
-uint32_t DisjointSets::find(uint32_t element)
-{
-    HEARTH_RUNTIME_ASSERT(element < parent_.size());
-    while (parent_[element] != element)
-    {
-        parent_[element] = parent_[parent_[element]];
-        element = parent_[element];
-    }
-    return element;
-}
-
-void DisjointSets::unite(uint32_t a, uint32_t b)
-{
-    a = find(a);
-    b = find(b);
-    if (a != b)
-        parent_[std::max(a, b)] = std::min(a, b);
-}
-
 template <IndexType Id>
 IdVector<TriangleId, Id> islandOfTriangles(const CornerVector<Id>& corners, size_t limit)
 {
     HEARTH_RUNTIME_ASSERT(allBelow(corners, limit));
-    DisjointSets sets(limit);
+    mesh::DisjointSets sets(limit);
     for (const TriangleId triangle : corners.triangles())
     {
         const auto [a, b, c] = corners.triangle(triangle);

@@ -11,18 +11,6 @@
 namespace hearth::clusters
 {
 
-/// Disjoint sets (union-find) over [0, count): union by smaller index, path halving.
-class DisjointSets
-{
-public:
-    explicit DisjointSets(size_t count);
-    uint32_t find(uint32_t element);
-    void unite(uint32_t a, uint32_t b);
-
-private:
-    std::vector<uint32_t> parent_;
-};
-
 /// Return the smallest position of each triangle's island; or wedge or vertex, whatever connects the corners.
 /// corners  all below `limit`
 template <IndexType Id>

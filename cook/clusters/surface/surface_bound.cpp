@@ -280,6 +280,26 @@ double largestCoordinate(const SurfaceView& surface)
 
 } // namespace
 
+SurfaceBounds boundSurfaceSides(const SurfaceView& a, const SurfaceView& b, double enough)
+{
+    HEARTH_ASSERT(!a.corners.empty() && !b.corners.empty() && enough >= 0);
+    HEARTH_ASSERT(allBelow(a.corners, a.positions.size()) && allBelow(b.corners, b.positions.size()));
+    const double coordinates = std::max(largestCoordinate(a), largestCoordinate(b));
+    // smaller distances cannot be distinguished from 0 in the float positions of the surfaces
+    const double least = std::max(enough, coordinates * 1e-6);
+    const SurfaceTree tree_a(a);
+    const SurfaceTree tree_b(b);
+    SurfaceBounds bounds;
+    boundOneSide(a, tree_a, tree_b, least, bounds.a);
+    boundOneSide(b, tree_b, tree_a, least, bounds.b);
+    for (SurfaceBound* const bound : {&bounds.a, &bounds.b})
+    {
+        bound->upper += coordinates * kBoundRounding;
+        HEARTH_ASSERT(bound->upper >= 0 && bound->sure >= 0);
+    }
+    return bounds;
+}
+
 SurfaceBound boundSurfaces(const SurfaceView& a, const SurfaceView& b, double enough)
 {
     HEARTH_ASSERT(!a.corners.empty() && !b.corners.empty() && enough >= 0);

@@ -26,6 +26,16 @@ struct SurfaceBound
     uint64_t loose_pieces = 0; ///< pieces whose search ended early, so that their bounds are not tight
 };
 
+/// Bounds of each surface's distance to the other one.
+struct SurfaceBounds
+{
+    SurfaceBound a; ///< of the points of the first surface
+    SurfaceBound b; ///< of the points of the second one
+};
+
+/// Bound the distance of each surface's points to the other surface, as boundSurfaces.
+SurfaceBounds boundSurfaceSides(const SurfaceView& a, const SurfaceView& b, double enough);
+
 /// Bound the two-sided distance of two surfaces: `upper` is at most 1.1 times the larger of `sure` and
 /// `enough`, except for loose pieces. Deterministic for any number of threads. Time O(n log n) for surfaces
 /// that lie close to each other relative to their size; a million triangles on either side take seconds.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/fit/finer_levels.h"
 
-#include "cook/visibility/mesh/closest_point.h"
+#include "cook/mesh/closest_point.h"
 #include "cook/visibility/mesh/moment_clamp.h"
 #include "formats/base/assert.h"
 
@@ -37,7 +37,7 @@ public:
     /// hint  as of ClosestPoint::find; changed to the triangle that was found
     Moments interpolate(Float3 position, Float3 normal, uint32_t& hint) const
     {
-        const ClosestPoint::Hit found = find(position, normal, hint);
+        const mesh::ClosestPoint::Hit found = find(position, normal, hint);
         if (found.triangle == kInvalidIndex)
             return openHemisphere(normal);
         hint = found.triangle;
@@ -57,10 +57,10 @@ public:
     }
 
 private:
-    ClosestPoint::Hit find(Float3 position, Float3 normal, uint32_t hint) const
+    mesh::ClosestPoint::Hit find(Float3 position, Float3 normal, uint32_t hint) const
     {
         constexpr double kAnyDistance = std::numeric_limits<double>::infinity();
-        ClosestPoint::Hit found = closest_.find(position, normal, kAnyDistance, hint, kMinCosine);
+        mesh::ClosestPoint::Hit found = closest_.find(position, normal, kAnyDistance, hint, kMinCosine);
         if (found.triangle == kInvalidIndex)
             found = closest_.find(position, normal, kAnyDistance, hint);
         if (found.triangle == kInvalidIndex)
@@ -70,7 +70,7 @@ private:
 
     const MeshView& mesh_;
     std::span<const Moments> moments_;
-    ClosestPoint closest_;
+    mesh::ClosestPoint closest_;
 };
 
 /// Interpolate the moments of a level's vertices.

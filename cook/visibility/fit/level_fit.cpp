@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/fit/level_fit.h"
 
+#include "cook/mesh/closest_point.h"
 #include "cook/visibility/fit/block4.h"
-#include "cook/visibility/mesh/closest_point.h"
 #include "formats/base/assert.h"
 
 #include <algorithm>
@@ -26,14 +26,14 @@ constexpr double kDefaultReach = 0.05;
 std::vector<SurfaceSample> moveSamples(const MeshView& from, std::span<const SurfaceSample> samples,
                                        const Proxy& proxy, double reach)
 {
-    const ClosestPoint surface(proxy.view(), proxy.indices.size() / 3);
+    const mesh::ClosestPoint surface(proxy.view(), proxy.indices.size() / 3);
     std::vector<SurfaceSample> result(samples.size());
     const auto move = [&](const SurfaceSample& sample, uint32_t hint)
     {
         const uint32_t* corners = from.indices.data() + size_t{sample.triangle} * 3;
         const Float3 a = from.positions[corners[0]];
         const Float3 ab = from.positions[corners[1]] - a, ac = from.positions[corners[2]] - a;
-        const ClosestPoint::Hit found =
+        const mesh::ClosestPoint::Hit found =
             surface.find(a + ab * sample.u + ac * sample.v, cross(ab, ac), reach * reach, hint);
         return SurfaceSample{found.triangle, found.u, found.v, sample.area, sample.weight};
     };

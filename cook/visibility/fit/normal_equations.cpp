@@ -78,7 +78,7 @@ SparseMatrix createPattern(const Proxy& proxy)
         for (size_t t = 0; t < proxy.indices.size(); t += 3)
             for (size_t k = 0; k < 3; ++k)
                 use(proxy.indices[t + k], proxy.indices[t + (k + 1) % 3]);
-        for (const InteriorEdge& edge : proxy.edges)
+        for (const mesh::InteriorEdge& edge : proxy.edges)
             use(edge.k, edge.l);
     };
     CsrLists<uint32_t> entries(rows,
@@ -184,7 +184,7 @@ std::vector<double> computeVertexShares(const Proxy& proxy, const std::vector<Tr
 void addJumps(NormalEquations& system, const Proxy& proxy, std::span<const double> areas,
               std::span<const double> shares, double alpha, double stiffness)
 {
-    for (const InteriorEdge& edge : proxy.edges)
+    for (const mesh::InteriorEdge& edge : proxy.edges)
     {
         std::array<double, 4> jump = gradientJump(proxy.positions, edge);
         const std::array<uint32_t, 4> vertices{edge.a, edge.b, edge.k, edge.l};
@@ -261,7 +261,7 @@ std::vector<uint32_t> findIslands(const Proxy& proxy)
 
 } // namespace
 
-std::array<double, 4> gradientJump(std::span<const Float3> positions, const InteriorEdge& edge)
+std::array<double, 4> gradientJump(std::span<const Float3> positions, const mesh::InteriorEdge& edge)
 {
     const Double3 a = widen(positions[edge.a]);
     const Double3 along = widen(positions[edge.b]) - a;

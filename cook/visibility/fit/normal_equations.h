@@ -16,7 +16,7 @@ namespace hearth::visibility
 /// It is 0 for a function that is linear over the two triangles unfolded into a plane. All weights are 0 if a
 /// triangle has no area.
 /// returns  weights of a, b, k, l; their unit is a length
-std::array<double, 4> gradientJump(std::span<const Float3> positions, const InteriorEdge& edge);
+std::array<double, 4> gradientJump(std::span<const Float3> positions, const mesh::InteriorEdge& edge);
 
 struct NormalEquations
 {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/mesh/proxy.h"
 
-#include "cook/visibility/mesh/closest_point.h"
+#include "cook/mesh/closest_point.h"
 #include "cook/visibility/mesh/moment_clamp.h"
 #include "cook/visibility/mesh/vertex_weld.h"
 #include "formats/base/assert.h"
@@ -78,7 +78,8 @@ bool hasArea(const MeshView& mesh, size_t triangle)
 class ProxyBuilder
 {
 public:
-    ProxyBuilder(const MeshView& source, const WeldedSource& welded, CleanTriangles clean, double thinness)
+    ProxyBuilder(const MeshView& source, const WeldedSource& welded, mesh::CleanTriangles clean,
+                 double thinness)
         : source_(source),
           welded_(welded),
           clean_(std::move(clean)),
@@ -129,7 +130,7 @@ private:
     void bindNearby(const std::vector<double>& reach)
     {
         const MeshView smooth{source_.positions, source_.normals, clean_.indices};
-        std::optional<ClosestPoint> surface;
+        std::optional<mesh::ClosestPoint> surface;
         for (uint32_t v = 0; v < used_.size(); ++v)
         {
             if (!(reach[v] > 0) || used_[v])
@@ -144,7 +145,7 @@ private:
     void bindRemaining()
     {
         const MeshView all{source_.positions, source_.normals, clean_.indices};
-        std::optional<ClosestPoint> surface;
+        std::optional<mesh::ClosestPoint> surface;
         for (uint32_t v = 0; v < used_.size(); ++v)
         {
             if (used_[v] || mergedVertex(v) != v || bindings_[v].vertices[0] != kInvalidIndex)
@@ -155,10 +156,11 @@ private:
         }
     }
 
-    void bind(uint32_t vertex, const ClosestPoint& surface, double limit, const MeshView& mesh)
+    void bind(uint32_t vertex, const mesh::ClosestPoint& surface, double limit, const MeshView& mesh)
     {
         const Float3 p = source_.positions[vertex];
-        ClosestPoint::Hit found = surface.find(p, source_.normals[vertex], limit * limit, kInvalidIndex);
+        mesh::ClosestPoint::Hit found =
+            surface.find(p, source_.normals[vertex], limit * limit, kInvalidIndex);
         if (found.triangle == kInvalidIndex && limit == kAnyDistance)
             found = surface.find(p, {}, kAnyDistance, kInvalidIndex);
         if (found.triangle == kInvalidIndex)
@@ -211,7 +213,7 @@ private:
         for (const uint32_t vertex : clean_.indices)
             proxy_.indices.push_back(number[vertex]);
         const std::span<const uint32_t> smooth(proxy_.indices.data(), proxy_.smooth_count * 3);
-        proxy_.edges = findInteriorEdges(smooth, proxy_.positions.size());
+        proxy_.edges = mesh::findInteriorEdges(smooth, proxy_.positions.size());
         proxy_.bindings.resize(used_.size());
         proxy_.statistics.source_vertices = static_cast<uint32_t>(used_.size());
         for (uint32_t v = 0; v < used_.size(); ++v)
@@ -233,7 +235,7 @@ private:
 
     const MeshView& source_;
     const WeldedSource& welded_;
-    CleanTriangles clean_;
+    mesh::CleanTriangles clean_;
     double thinness_;
     std::vector<bool> used_; ///< by a triangle of the proxy
     std::vector<Binding> bindings_;
@@ -252,7 +254,8 @@ Proxy makeProxy(const MeshView& source, const ProxySettings& settings)
 {
     HEARTH_ASSERT(source.normals.size() == source.positions.size());
     const WeldedSource welded = weld(source, settings);
-    CleanTriangles clean = removeThinTriangles(source.positions, welded.indices, settings.thinness);
+    mesh::CleanTriangles clean =
+        mesh::removeThinTriangles(source.positions, welded.indices, settings.thinness);
     return ProxyBuilder(source, welded, std::move(clean), settings.thinness).build();
 }
 
@@ -287,7 +290,7 @@ std::vector<SurfaceSample> mapSamplesToProxy(const Proxy& proxy, const MeshView&
 {
     const auto isRemoved = [&](const SurfaceSample& sample)
     { return proxy.triangle_of_source[sample.triangle] == kInvalidIndex; };
-    std::optional<ClosestPoint> surface;
+    std::optional<mesh::ClosestPoint> surface;
     if (std::any_of(samples.begin(), samples.end(), isRemoved))
         surface.emplace(proxy.view(), proxy.smooth_count);
     std::vector<SurfaceSample> result(samples.size());
@@ -305,7 +308,7 @@ std::vector<SurfaceSample> mapSamplesToProxy(const Proxy& proxy, const MeshView&
         const Float3 a = source.positions[corners[0]];
         const Float3 ab = source.positions[corners[1]] - a, ac = source.positions[corners[2]] - a;
         const double reach = longestEdge(source, sample.triangle) * proxy.thinness * kMaxBindDistance;
-        const ClosestPoint::Hit found =
+        const mesh::ClosestPoint::Hit found =
             surface->find(a + ab * sample.u + ac * sample.v, cross(ab, ac), reach * reach, hint);
         return SurfaceSample{found.triangle, found.u, found.v, sample.area, sample.weight};
     };

@@ -3,10 +3,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/visibility/mesh/interior_edges.h"
-#include "cook/visibility/mesh/mesh_view.h"
+#include "cook/mesh/interior_edges.h"
+#include "cook/mesh/thin_triangles.h"
 #include "cook/visibility/mesh/moments.h"
-#include "cook/visibility/mesh/thin_triangles.h"
+#include "cook/visibility/mesh/surface_sample.h"
 
 #include <array>
 #include <vector>
@@ -40,7 +40,7 @@ struct ProxyStatistics
 {
     uint32_t source_vertices = 0;
     uint32_t welded = 0; ///< source vertices merged into an earlier one
-    ThinTriangleStatistics thin;
+    mesh::ThinTriangleStatistics thin;
     uint32_t loose = 0; ///< thin triangles that are kept because nothing else holds their vertices
     /// Source vertices without a remaining triangle; they take the value of the nearest point.
     uint32_t nearest = 0;
@@ -52,10 +52,10 @@ struct Proxy
     std::vector<Float3> normals;
     /// The first `smooth_count` triangles, then loose triangles, which may name a vertex twice.
     std::vector<uint32_t> indices;
-    size_t smooth_count = 0;         ///< triangles that the regulariser covers
-    double thinness = 0;             ///< setting that the proxy was made with
-    std::vector<InteriorEdge> edges; ///< interior edges of the smooth triangles
-    std::vector<Binding> bindings;   ///< for each source vertex; kInvalidIndex if the proxy is empty
+    size_t smooth_count = 0;               ///< triangles that the regulariser covers
+    double thinness = 0;                   ///< setting that the proxy was made with
+    std::vector<mesh::InteriorEdge> edges; ///< interior edges of the smooth triangles
+    std::vector<Binding> bindings;         ///< for each source vertex; kInvalidIndex if the proxy is empty
     /// For each source triangle, the proxy triangle with the same three vertices, or kInvalidIndex.
     std::vector<uint32_t> triangle_of_source;
     ProxyStatistics statistics;

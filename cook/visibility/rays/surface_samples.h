@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/visibility/mesh/mesh_view.h"
+#include "cook/visibility/mesh/surface_sample.h"
 
 #include <vector>
 

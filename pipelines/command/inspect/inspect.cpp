@@ -260,6 +260,11 @@ const char* receiverCodecName(uint32_t codec)
     return codec == static_cast<uint32_t>(ReceiverCodec::rgbm) ? "rgbm" : "rgb9e5";
 }
 
+const char* proxyOriginName(uint32_t origin)
+{
+    return origin < kProxyOriginNames.size() ? kProxyOriginNames[origin].data() : "unknown";
+}
+
 PackSummary summarize(const PackView& pack)
 {
     PackSummary summary;

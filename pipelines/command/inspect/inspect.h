@@ -134,6 +134,9 @@ struct ReceiverBytes
 ReceiverBytes sumReceiverBytes(const formats::PackView& pack, std::span<const uint32_t> chunks);
 const char* receiverCodecName(uint32_t codec);
 
+/// Return "cleaned", "wrapped" or "authored"; "unknown" for other numbers.
+const char* proxyOriginName(uint32_t origin);
+
 PackSummary summarize(const formats::PackView& pack);
 
 /// Read chunk META of a part or a pack; absent values and values of the wrong type are left out.

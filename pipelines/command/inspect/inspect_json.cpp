@@ -338,6 +338,34 @@ Json receiversJson(const PackView& pack)
             {"rectangles", listJson(tables.rects.size(), rectangle)}};
 }
 
+/// Return a distance of a proxy, or null where it is unknown.
+Json distanceJson(float distance)
+{
+    return std::isfinite(distance) ? Json(distance) : Json();
+}
+
+Json proxyJson(const PackView& pack, uint32_t index)
+{
+    const ProxyRecord& proxy = pack.proxies()[index];
+    const auto sections = recordsInRange(pack.proxySections(), proxy.sections);
+    const auto section = [&](uint32_t i) -> Json
+    {
+        const uint32_t material = sections[i].material;
+        return {{"triangles", sections[i].triangles.count},
+                {"material", material == kInvalidIndex ? Json() : Json(material)},
+                {"convex", sections[i].is_convex != 0}};
+    };
+    return {{"mesh", proxy.mesh},
+            {"origin", proxyOriginName(proxy.origin)},
+            {"triangles", proxy.indices.count / 3},
+            {"vertices", proxy.positions.count},
+            {"closed", proxy.is_closed != 0},
+            {"distance", distanceJson(proxy.distance)},
+            {"mesh_distance", distanceJson(proxy.mesh_distance)},
+            {"bindings", proxy.bindings.count},
+            {"sections", listJson(sections.size(), section)}};
+}
+
 Json totalsJson(const PackView& pack, const PackSummary& summary)
 {
     MeshSummary total;
@@ -416,6 +444,8 @@ std::string inspectJson(const PackView& pack, const PackSummary& summary)
         json["bricks"] = bricksJson(pack);
     if (!pack.receivers().lamps.empty())
         json["receivers"] = receiversJson(pack);
+    if (!pack.proxies().empty())
+        json["proxies"] = listJson(pack.proxies().size(), [&](uint32_t i) { return proxyJson(pack, i); });
     json["chunks"] = chunksJson(pack);
     json["messages"] = messagesJson(summary.meta.messages);
     json["skipped"] = messagesJson(summary.meta.skipped);

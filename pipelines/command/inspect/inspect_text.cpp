@@ -179,6 +179,33 @@ std::string receiversText(const PackView& pack, const MetaSummary& meta)
     return text;
 }
 
+/// Return ", within 0.002 m", or nothing where a proxy's distance is unknown.
+std::string distanceText(const ProxyRecord& proxy)
+{
+    const float distance = std::max(proxy.distance, proxy.mesh_distance);
+    return std::isfinite(distance) ? fmt::format(", within {:.3g} m", distance) : "";
+}
+
+/// Describe the proxies of meshes; nothing where there are none.
+std::string proxiesText(const PackView& pack)
+{
+    std::string text;
+    for (size_t i = 0; i < pack.proxies().size(); ++i)
+    {
+        const ProxyRecord& proxy = pack.proxies()[i];
+        // the mesh of a part is in another one
+        const std::string_view name = proxy.mesh < pack.meshes().size()
+                                          ? pack.text(pack.meshes()[proxy.mesh].name)
+                                          : std::string_view();
+        text +=
+            fmt::format("proxy {} of mesh {} \"{}\": {}, {} triangles in {} sections, {}{}{}\n", i,
+                        proxy.mesh, printable(name), proxyOriginName(proxy.origin), proxy.indices.count / 3,
+                        proxy.sections.count, proxy.is_closed != 0 ? "closed" : "open", distanceText(proxy),
+                        proxy.bindings.count != 0 ? ", with bindings" : "");
+    }
+    return text.empty() ? text : "\n" + text;
+}
+
 /// Return "  by hand: rock_LOD3.ply (LOD 3)" for an authored level; empty for other levels.
 std::string authoredText(const LevelSummary& level)
 {
@@ -348,7 +375,7 @@ std::string inspectText(const PackView& pack, const PackSummary& summary)
                        bricksText(pack, summary.meta) + receiversText(pack, summary.meta);
     for (size_t i = 0; i < summary.meshes.size(); ++i)
         text += meshText(summary.meshes[i], i);
-    return text + layersText(pack) + imagesText(pack, summary) + extrasText(pack) +
+    return text + proxiesText(pack) + layersText(pack) + imagesText(pack, summary) + extrasText(pack) +
            messagesText(summary.meta) + chunksText(pack);
 }
 

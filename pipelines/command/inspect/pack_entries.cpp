@@ -368,6 +368,28 @@ void addExtrasEntries(std::vector<PackEntry>& entries, const PackView& pack)
     }
 }
 
+void addProxyEntries(std::vector<PackEntry>& entries, const PackView& pack)
+{
+    for (const ProxyRecord& proxy : pack.proxies())
+    {
+        PackEntry entry{"proxy",
+                        std::string(pack.text(pack.meshes()[proxy.mesh].name)),
+                        {{"origin", proxyOriginName(proxy.origin)},
+                         {"triangles", std::to_string(proxy.indices.count / 3)},
+                         {"closed", proxy.is_closed != 0 ? "yes" : "no"},
+                         {"distance", std::to_string(proxy.distance)},
+                         {"distance of the mesh", std::to_string(proxy.mesh_distance)}}};
+        const auto add = [&](const char* name, std::string_view bytes) {
+            entry.properties.push_back({name, contentHash(bytes), true});
+        };
+        add("positions", rawBytes(recordsInRange(pack.proxyPositions(), proxy.positions)));
+        add("indices", rawBytes(recordsInRange(pack.proxyIndices(), proxy.indices)));
+        add("sections", rawBytes(recordsInRange(pack.proxySections(), proxy.sections)));
+        add("bindings", rawBytes(recordsInRange(pack.proxyBindings(), proxy.bindings)));
+        entries.push_back(std::move(entry));
+    }
+}
+
 void addLightEntries(std::vector<PackEntry>& entries, const PackView& pack)
 {
     for (const SpecularTableRecord& table : pack.specularTables())
@@ -491,6 +513,7 @@ Result<std::vector<PackEntry>> listEntries(const PackView& pack)
     addTableEntries(entries, pack, "camera", pack.cameras());
     addNodeEntries(entries, pack, "shadow sphere", pack.shadowSpheres());
     addExtrasEntries(entries, pack);
+    addProxyEntries(entries, pack);
     addLightEntries(entries, pack);
     addReceiverEntry(entries, pack);
     addMetaEntries(entries, summary.meta);

@@ -2,6 +2,7 @@
 #include "pipelines/command/inspect/extract.h"
 #include "pipelines/command/inspect/extract_bricks.h"
 #include "pipelines/command/inspect/extract_probe.h"
+#include "pipelines/command/inspect/extract_proxy.h"
 #include "pipelines/command/inspect/extract_receivers.h"
 #include "pipelines/command/inspect/extract_specular.h"
 #include "pipelines/command/inspect/extract_texture.h"
@@ -15,10 +16,10 @@ namespace hearth::command
 
 void addExtract(cli::CommandLine& app, VerbAction& run)
 {
-    cli::CommandLine& verb = app.addSubcommand(
-        "extract",
-        "Write a level of detail of a mesh as PLY, a texture as KTX2, a light probe, receivers, or a table "
-        "as CSV");
+    cli::CommandLine& verb =
+        app.addSubcommand("extract", "Write a level of detail of a mesh or its proxy as PLY, a texture as "
+                                     "KTX2, a light probe, receivers, or "
+                                     "a table as CSV");
     struct Options
     {
         std::string file;
@@ -29,6 +30,7 @@ void addExtract(cli::CommandLine& app, VerbAction& run)
         double time = 0;
         TextureExtraction texture;
         std::optional<uint32_t> probe;
+        uint32_t proxy = 0;
         std::string texel_format;
         std::string output;
     };
@@ -56,13 +58,21 @@ void addExtract(cli::CommandLine& app, VerbAction& run)
             .excludes(mesh)
             .excludes(part)
             .excludes(texture);
+    const cli::Option proxy = verb.addOption("--proxy", options->proxy,
+                                             "instead of a mesh; the proxy of an index, as .ply, or as .obj "
+                                             "with a group for each material")
+                                  .excludes(mesh)
+                                  .excludes(part)
+                                  .excludes(texture)
+                                  .excludes(probe);
     const cli::Option receivers =
         verb.addFlag("--receivers",
                      "instead of a mesh; the baked light of receivers with all lamps on, as .exr or .png")
             .excludes(mesh)
             .excludes(part)
             .excludes(texture)
-            .excludes(probe);
+            .excludes(probe)
+            .excludes(proxy);
     verb.addOption("--as", options->texel_format, "decode the texture, for programs that lack its format")
         .choices({"rgba8"})
         .needs(texture);
@@ -71,23 +81,29 @@ void addExtract(cli::CommandLine& app, VerbAction& run)
                                            "clip that poses the mesh: its name, or its index if it has none");
     animation.needs(mesh);
     verb.addOption("--time", options->time, "seconds from the start of the clip").needs(animation);
-    verb.addOption("-o,--output", options->output, "PLY, KTX2, CSV, EXR or PNG file to write").required();
+    verb.addOption("-o,--output", options->output, "PLY, OBJ, KTX2, CSV, EXR or PNG file to write")
+        .required();
     verb.setFooter("Example: hearth extract village.hearth --mesh 0 --error 0.01 -o cut.ply");
     verb.setCheck(
-        [mesh, part, texture, probe, receivers]
+        [mesh, part, texture, probe, proxy, receivers]
         {
-            const size_t given =
-                mesh.count() + part.count() + texture.count() + probe.count() + receivers.count();
+            const size_t given = mesh.count() + part.count() + texture.count() + probe.count() +
+                                 proxy.count() + receivers.count();
             return given == 0 ? "--mesh is required" : "";
         });
     verb.setAction(
-        [options, part, texture, probe, receivers, animation, &run]
+        [options, part, texture, probe, proxy, receivers, animation, &run]
         {
-            run = [options, part, texture, probe, receivers, animation]
+            run = [options, part, texture, probe, proxy, receivers, animation]
             {
                 if (receivers.count() > 0)
                 {
                     const Status status = extractReceivers(options->file, options->output);
+                    return status.ok() ? 0 : printError(status.error());
+                }
+                if (proxy.count() > 0)
+                {
+                    const Status status = extractProxy(options->file, options->proxy, options->output);
                     return status.ok() ? 0 : printError(status.error());
                 }
                 if (probe.count() > 0)

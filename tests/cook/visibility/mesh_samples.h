@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cook/mesh/source_mesh.h"
-#include "cook/visibility/mesh/mesh_view.h"
+#include "cook/visibility/mesh/surface_sample.h"
 
 #include <cstdint>
 #include <vector>

@@ -91,7 +91,7 @@ Eigen::Matrix<double, 2, 3> computeGradient(const std::array<Eigen::Vector2d, 3>
 
 /// Return the matrix over vertices a, b, k, l of (A1 + A2)^2 |g1 - g2|^2. Both triangles lie in one plane
 /// with the edge along the first axis.
-Eigen::Matrix4d computeJump(const Proxy& proxy, const InteriorEdge& edge)
+Eigen::Matrix4d computeJump(const Proxy& proxy, const mesh::InteriorEdge& edge)
 {
     const auto at = [&](uint32_t v) { return widen(proxy.positions[v]); };
     const Double3 along = at(edge.b) - at(edge.a);
@@ -154,7 +154,7 @@ Dense makeDense(const Proxy& proxy, const std::vector<SurfaceSample>& samples,
         const Moments& m = values[i];
         dense.right += samples[i].area * row * Eigen::RowVector4d(m.m0, m.m1.x, m.m1.y, m.m1.z);
     }
-    for (const InteriorEdge& edge : proxy.edges)
+    for (const mesh::InteriorEdge& edge : proxy.edges)
     {
         const std::array<uint32_t, 4> vertices{edge.a, edge.b, edge.k, edge.l};
         const Eigen::Matrix4d jump = computeJump(proxy, edge);
@@ -196,7 +196,7 @@ struct CeresResiduals
                 u[c[0]] * double(1 - s.u - s.v) + u[c[1]] * double(s.u) + u[c[2]] * double(s.v);
             *residuals++ = (interpolated - double(values[i].m0)) * std::sqrt(double(s.area));
         }
-        for (const InteriorEdge& edge : proxy.edges)
+        for (const mesh::InteriorEdge& edge : proxy.edges)
         {
             const std::array<double, 4> jump = gradientJump(proxy.positions, edge);
             *residuals++ =
@@ -236,7 +236,7 @@ TEST(GradientJump, isWhatDifferencesOfGradientsGive)
 {
     const Proxy proxy = buildProxy(shapes::rock(3, 0.6f));
     ASSERT_GT(proxy.edges.size(), 50u);
-    for (const InteriorEdge& edge : proxy.edges)
+    for (const mesh::InteriorEdge& edge : proxy.edges)
     {
         const std::array<double, 4> jump = gradientJump(proxy.positions, edge);
         const Eigen::Vector4d row(jump.data());
@@ -249,7 +249,7 @@ TEST(GradientJump, isWhatDifferencesOfGradientsGive)
 TEST(GradientJump, isNothingForLinearFunctionsInAPlane)
 {
     const Proxy proxy = buildProxy(unevenGrid(8));
-    for (const InteriorEdge& edge : proxy.edges)
+    for (const mesh::InteriorEdge& edge : proxy.edges)
     {
         const std::array<double, 4> jump = gradientJump(proxy.positions, edge);
         const std::array<uint32_t, 4> vertices{edge.a, edge.b, edge.k, edge.l};

@@ -1,8 +1,8 @@
 // Tests the fit of all levels to the samples of the finest level, and that levels match where mixed cuts join
 // them.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/mesh/closest_point.h"
 #include "cook/visibility/fit/level_fit.h"
-#include "cook/visibility/mesh/closest_point.h"
 #include "tests/cook/visibility/mesh_samples.h"
 #include "tests/support/sanitized.h"
 #include "tests/support/shapes.h"
@@ -79,12 +79,12 @@ Levels makeLevels(float frequency = 7)
 double rmsError(const MeshView& level, const std::vector<Moments>& moments, const MeshView& finest,
                 float frequency)
 {
-    const ClosestPoint surface(level, level.triangleCount());
+    const mesh::ClosestPoint surface(level, level.triangleCount());
     double sum = 0, area = 0;
     for (const SurfaceSample& sample : makeSamples(finest, 3, 77))
     {
         const Float3 p = getPoint(finest, sample);
-        const ClosestPoint::Hit found = surface.find(p, p, 100, kInvalidIndex);
+        const mesh::ClosestPoint::Hit found = surface.find(p, p, 100, kInvalidIndex);
         const uint32_t* corners = &level.indices[size_t{found.triangle} * 3];
         const float weights[3] = {1 - found.u - found.v, found.u, found.v};
         float m0 = 0;

@@ -1,7 +1,7 @@
 // Tests the proxy mesh on which visibility is fitted.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/mesh/closest_point.h"
 #include "cook/visibility/fit/vertex_fit.h"
-#include "cook/visibility/mesh/closest_point.h"
 #include "cook/visibility/mesh/moment_clamp.h"
 #include "cook/visibility/mesh/proxy.h"
 #include "cook/visibility/mesh/vertex_weld.h"
@@ -332,8 +332,8 @@ TEST(ClosestPoint, isWhatTryingAllTrianglesGives)
 {
     const mesh::SourceMesh rock = shapes::rock(5, 0.5f);
     const MeshView view = makeMeshView(rock);
-    const ClosestPoint tree(view, view.triangleCount());
-    std::vector<ClosestPoint> single; // one per triangle
+    const mesh::ClosestPoint tree(view, view.triangleCount());
+    std::vector<mesh::ClosestPoint> single; // one per triangle
     for (size_t t = 0; t < view.triangleCount(); ++t)
         single.emplace_back(MeshView{view.positions, view.normals, view.indices.subspan(t * 3, 3)}, 1);
     std::mt19937 random(5);
@@ -343,9 +343,9 @@ TEST(ClosestPoint, isWhatTryingAllTrianglesGives)
         const Float3 p = Float3{unit(), unit(), unit()} * 1.5f, n{unit(), unit(), unit()};
         const double limit2 = i % 2 == 0 ? 100 : 0.02;
         double least = limit2;
-        for (const ClosestPoint& one : single)
+        for (const mesh::ClosestPoint& one : single)
             least = std::min(least, one.find(p, n, limit2, kInvalidIndex).distance2);
-        const ClosestPoint::Hit found = tree.find(p, n, limit2, static_cast<uint32_t>(i));
+        const mesh::ClosestPoint::Hit found = tree.find(p, n, limit2, static_cast<uint32_t>(i));
         EXPECT_EQ(found.distance2, least);
         if (found.triangle == kInvalidIndex)
             continue;

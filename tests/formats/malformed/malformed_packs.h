@@ -51,6 +51,7 @@ const std::vector<MalformedPack>& malformedProbes();
 const std::vector<MalformedPack>& malformedReceivers();
 
 /// Invalid surroundings of instances.
+const std::vector<MalformedPack>& malformedProxies();
 const std::vector<MalformedPack>& malformedSurroundings();
 
 /// Invalid grids of bricks.

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/visibility/mesh/thin_triangles.h"
+#include "cook/mesh/thin_triangles.h"
 
-#include "cook/visibility/mesh/interior_edges.h"
-#include "cook/visibility/mesh/mesh_view.h"
+#include "cook/mesh/interior_edges.h"
 #include "formats/base/double3.h"
+#include "formats/base/index.h"
 
 #include <algorithm>
 #include <array>
 #include <numeric>
 
-namespace hearth::visibility
+namespace hearth::mesh
 {
 
 namespace
@@ -267,4 +267,4 @@ CleanTriangles removeThinTriangles(std::span<const Float3> positions, std::span<
     return TriangleCleaner(positions, indices, thinness).clean();
 }
 
-} // namespace hearth::visibility
+} // namespace hearth::mesh

@@ -1,5 +1,5 @@
-// Removes thin triangles (slivers), which break the regulariser of the fit, by edge collapse, edge flip or
-// deletion.
+// Removes thin triangles (slivers) by edge collapse, edge flip or deletion: they break fits on the mesh, and are
+// of no use for collision.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-namespace hearth::visibility
+namespace hearth::mesh
 {
 
 struct ThinTriangleStatistics
@@ -43,4 +43,4 @@ struct CleanTriangles
 CleanTriangles removeThinTriangles(std::span<const Float3> positions, std::span<const uint32_t> indices,
                                    double thinness);
 
-} // namespace hearth::visibility
+} // namespace hearth::mesh

@@ -1,24 +1,16 @@
-// Triangle mesh as passed between the stages of the fit, and sample points that represent area on it.
+// Sample points that represent area on a mesh, and the mesh as the stages of the fit pass it on.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/mesh/mesh_view.h"
 #include "formats/base/index.h"
-#include "formats/base/math.h"
 
 #include <cstdint>
-#include <span>
 
 namespace hearth::visibility
 {
 
-struct MeshView
-{
-    std::span<const Float3> positions; ///< finite
-    std::span<const Float3> normals;   ///< unit, one for each position
-    std::span<const uint32_t> indices; ///< three for each triangle, in range
-
-    size_t triangleCount() const { return indices.size() / 3; }
-};
+using mesh::MeshView;
 
 /// Sample point (1 - u - v) corner0 + u corner1 + v corner2 of a triangle.
 struct SurfaceSample

@@ -1,10 +1,10 @@
 // Closest point on a triangle: C. Ericson, "Real-Time Collision Detection", 2005, 5.1.5.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/visibility/mesh/closest_point.h"
+#include "cook/mesh/closest_point.h"
 
 #include <algorithm>
 
-namespace hearth::visibility
+namespace hearth::mesh
 {
 
 namespace
@@ -64,7 +64,7 @@ ClosestPoint::ClosestPoint(const MeshView& mesh, size_t triangle_count)
         { return mesh.positions[mesh.indices[size_t{triangle} * 3 + k]]; };
         return {position(0), position(1), position(2)};
     };
-    tree_ = mesh::TriangleTree(static_cast<uint32_t>(triangle_count), corners);
+    tree_ = TriangleTree(static_cast<uint32_t>(triangle_count), corners);
     for (uint32_t i = 0; i < triangle_count; ++i)
     {
         const uint32_t triangle = tree_.order()[i];
@@ -109,4 +109,4 @@ ClosestPoint::Hit ClosestPoint::find(Float3 point, Float3 normal, double limit2,
     return best;
 }
 
-} // namespace hearth::visibility
+} // namespace hearth::mesh

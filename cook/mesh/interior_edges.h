@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace hearth::visibility
+namespace hearth::mesh
 {
 
 /// Edge shared by the triangles (a, b, k) and (a, b, l).
@@ -26,4 +26,4 @@ struct InteriorEdge
 /// indices  three different vertices for each triangle, less than vertex_count
 std::vector<InteriorEdge> findInteriorEdges(std::span<const uint32_t> indices, size_t vertex_count);
 
-} // namespace hearth::visibility
+} // namespace hearth::mesh

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/visibility/mesh/interior_edges.h"
+#include "cook/mesh/interior_edges.h"
 
 #include <algorithm>
 
-namespace hearth::visibility
+namespace hearth::mesh
 {
 
 namespace
@@ -74,4 +74,4 @@ std::vector<InteriorEdge> findInteriorEdges(std::span<const uint32_t> indices, s
     return edges;
 }
 
-} // namespace hearth::visibility
+} // namespace hearth::mesh

@@ -3,14 +3,15 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/mesh/mesh_view.h"
 #include "cook/mesh/triangle_tree.h"
-#include "cook/visibility/mesh/mesh_view.h"
 #include "formats/base/double3.h"
+#include "formats/base/index.h"
 
 #include <array>
 #include <vector>
 
-namespace hearth::visibility
+namespace hearth::mesh
 {
 
 /// Bounding volume hierarchy of axis-aligned boxes for closest-point queries.
@@ -55,9 +56,9 @@ private:
 
     void visit(const Query& query, const Triangle& item, Hit& best) const;
 
-    mesh::TriangleTree tree_;
+    TriangleTree tree_;
     std::vector<Triangle> triangles_; ///< in the order of the leaves
     std::vector<uint32_t> slot_of_triangle_;
 };
 
-} // namespace hearth::visibility
+} // namespace hearth::mesh

@@ -1,0 +1,30 @@
+// Binds the vertices of a mesh to its proxy, and bounds the distance between both.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#pragma once
+
+#include "cook/proxy/cut.h"
+#include "cook/proxy/surface.h"
+#include "formats/records/proxy.h"
+
+#include <vector>
+
+namespace hearth::proxy
+{
+
+/// Bind each vertex to the closest point of the proxy whose triangle faces the way of its normal, unless the
+/// closest point of all is much closer: then to that one. Runs on all cores.
+/// proxy  at least one triangle
+std::vector<formats::ProxyBindingRecord> bindVertices(const FinestVertices& vertices, const Surface& proxy);
+
+/// Distances between a mesh and its proxy, in metres.
+struct Distances
+{
+    float of_proxy = 0; ///< no point of the proxy is farther from the mesh
+    float of_mesh = 0;  ///< no point of the mesh is farther from the proxy
+};
+
+/// Bound the distances of two surfaces: each at most 1.1 times the true one, or a ten-thousandth of the diagonal.
+/// Surfaces have at least one triangle each.
+Distances boundDistances(const Surface& mesh, const Surface& proxy);
+
+} // namespace hearth::proxy

@@ -1,0 +1,71 @@
+// hearth-proxy: simple, clean meshes that stand for the meshes of a source.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/cookers/words.h"
+#include "pipelines/settings/make_setting.h"
+
+namespace hearth::cookers
+{
+
+namespace
+{
+
+using namespace settings;
+
+constexpr std::string_view kBindings = "proxy.bindings";
+
+std::vector<Setting> makeProxySettings()
+{
+    return {
+        withOption(
+            choiceSetting("proxy.from",
+                          "proxies of meshes, for collision and as occluders: source, none but those that "
+                          "artists made; clean, the mesh repaired and decimated; wrap, a closed surface "
+                          "around it",
+                          "source", {"source", "clean", "wrap"}),
+            "--proxy-from", "NAME"),
+        withOption(numberSetting("proxy.error",
+                                 "error of the cut that a clean proxy is made from, over the diagonal of the "
+                                 "mesh's box; 0: the whole mesh",
+                                 "0.002", 0, 1),
+                   "--proxy-error", "SHARE"),
+        withOption(
+            wholeNumberSetting("proxy.triangles", "triangles of that cut, at most", "no limit", 1, 0x1p32),
+            "--proxy-triangles", "COUNT"),
+        withOption(
+            numberSetting("proxy.holes",
+                          "holes of a clean proxy are filled whose boundary is at most this long, over the "
+                          "diagonal; 0: none",
+                          "0.05", 0, 16),
+            "--proxy-holes", "SHARE"),
+        flagSetting(std::string(kBindings), "store where the vertices of meshes are on their proxies",
+                    "--proxy-bindings"),
+    };
+}
+
+Result<Arguments> makeProxyArguments(const Values& values)
+{
+    Arguments arguments;
+    arguments.depends_on_processor = true; // rays decide which side of a shell is out
+    addOption(values, "proxy.error", "--error", arguments);
+    addOption(values, "proxy.triangles", "--triangles", arguments);
+    addOption(values, "proxy.holes", "--holes", arguments);
+    addFlag(values, kBindings, "--bindings", arguments);
+    return arguments;
+}
+
+} // namespace
+
+Cooker describeProxy()
+{
+    return {.name = "proxy",
+            .switched_by = "proxy.from",
+            .runs_for = {"clean", "wrap"},
+            .reads = {"import", "clusters"},
+            .link_option = "--proxies",
+            .has_statistics = true,
+            .settings = makeProxySettings(),
+            .makeArguments = makeProxyArguments,
+            .cost = {16 * kMiB, 8, 0.05}};
+}
+
+} // namespace hearth::cookers
