@@ -2,6 +2,8 @@
 # cookers and the libraries; the rest is opt-in.
 option(HEARTH_BUILD_COOKERS "Build hearth and the cookers; off where games are built for other machines" ON)
 option(HEARTH_BUILD_IMAGES "Build hearth-images, which reads TIFF, PSD, JPEG 2000 and parts of EXR, and needs OpenImageIO" ON)
+set(HEARTH_BUILD_WRAP AUTO CACHE STRING "Build hearth-wrap, which needs CGAL and is under the GPL with it: ON, OFF, or AUTO: where CGAL is found")
+set_property(CACHE HEARTH_BUILD_WRAP PROPERTY STRINGS AUTO ON OFF)
 option(HEARTH_BUILD_TESTS "Build tests and benchmarks" ${PROJECT_IS_TOP_LEVEL})
 option(HEARTH_BUILD_SAMPLES "Build hearth-samples, the generator of sample sources" ${PROJECT_IS_TOP_LEVEL})
 option(HEARTH_BUILD_VIEWER "Build hearth-render" ${PROJECT_IS_TOP_LEVEL})

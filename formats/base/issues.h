@@ -109,6 +109,8 @@ enum class IssueClass : uint8_t
     X(probe_enclosed, 1407, malformed, "a probe is inside of a solid", "move the probe into the open")       \
     X(size_outlier, 1410, warning, "a source is much larger or smaller than the others of its cook",         \
       "if its unit is wrong, set import.scale in a rule")                                                    \
+    X(wrap_failed, 1420, malformed, "a mesh cannot be wrapped",                                              \
+      "set a larger proxy.alpha or proxy.offset, or take the proxy from elsewhere")                          \
     X(profile_syntax, 1500, config, "a file of settings is not valid TOML",                                  \
       "see https://toml.io for how TOML is written")                                                         \
     X(profile_key, 1501, config, "a setting is not known here", "check its spelling: see hearth config")     \

@@ -289,8 +289,8 @@ const std::vector<Library>& libraries()
         {"gtest/", {}, true},
         {"gmock/", {}, true},
         {"benchmark/", {}, true},
-        {"CGAL/", {}}, // checks distances, in tests
-        {"EGL/", {}},  // with the next two: decodes ETC2 as an oracle, in tests
+        {"CGAL/", {"cook/wrap/"}}, // and checks distances, in tests
+        {"EGL/", {}},              // with the next two: decodes ETC2 as an oracle, in tests
         {"GLES2/", {}},
         {"GLES3/", {}},
         {"OpenMesh/", {}},         // counts boundary loops, in tests
@@ -314,7 +314,7 @@ const std::vector<SlowLibrary>& slowLibraries()
         {"CLI/", {"cook/command_line/command_line.cpp"}},
         {"nlohmann/", {"cook/json/json.cpp", "tests/cook/json_test.cpp"}},
         {"toml++/", {"cook/tools/toml.cpp"}},
-        {"CGAL/", {"tests/support/surfaces/cgal_distance.cpp"}},
+        {"CGAL/", {"cook/wrap/cgal_wrap.cpp", "tests/support/surfaces/cgal_distance.cpp"}},
         {"OpenMesh/", {"tests/support/surfaces/boundary.cpp"}},
     };
     return list;

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/wrap/wrap_mesh.h"
+
+#include "cook/mesh/triangles.h"
+#include "cook/mesh/weld.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <new>
+
+namespace hearth::wrap
+{
+
+namespace
+{
+
+// Rounding rarely breaks a guarantee, and a larger offset then gives other triangles, farther away.
+constexpr int kMaxTries = 4;
+constexpr double kOffsetGrowth = 1.5;
+
+double diagonal(const Surface& surface)
+{
+    Double3 low = widen(surface.positions.front()), high = low;
+    for (const Float3 position : surface.positions)
+    {
+        const Double3 p = widen(position);
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+    return length(high - low);
+}
+
+bool hasCollapsedTriangle(const Surface& surface)
+{
+    for (size_t i = 0; i < surface.triangleCount(); ++i)
+    {
+        const std::array<Float3, 3> corners = surface.corners(i);
+        if (mesh::isDegenerate(corners[0], corners[1], corners[2]))
+            return true;
+    }
+    return false;
+}
+
+/// Return the guarantee that a wrap breaks once it is rounded; "" if it holds all.
+std::string findFault(const Surface& wrap, const Surface& source, const TriangleTree& tree,
+                      double max_seconds)
+{
+    if (wrap.indices.empty())
+        return "it is no surface";
+    if (std::adjacent_find(wrap.positions.begin(), wrap.positions.end()) != wrap.positions.end() ||
+        hasCollapsedTriangle(wrap))
+        return "triangles collapse";
+    const std::optional<SelfIntersections> found = findSelfIntersections(wrap, 1, max_seconds);
+    if (!found || found->count > 0)
+        return "it intersects itself";
+    if (tree.touches(wrap))
+        return "it touches the source";
+    if (!containsPoints(wrap, source.positions))
+        return "it leaves vertices of the source outside";
+    return "";
+}
+
+mesh::SourceMesh makeMesh(Surface wrap, const mesh::SourceMesh& source, const TriangleTree& tree,
+                          const std::vector<uint32_t>& numbers)
+{
+    mesh::SourceMesh mesh;
+    mesh.name = source.name;
+    mesh.face_count = static_cast<uint32_t>(wrap.triangleCount());
+    mesh.source_vertex_count = static_cast<uint32_t>(wrap.positions.size());
+    for (size_t i = 0; i < wrap.triangleCount(); ++i)
+    {
+        const std::array<Float3, 3> corners = wrap.corners(i);
+        const Double3 middle = (widen(corners[0]) + widen(corners[1]) + widen(corners[2])) * (1 / 3.);
+        mesh.triangle_materials.push_back(source.triangle_materials[numbers[tree.findNearest(middle)]]);
+    }
+    mesh.positions = std::move(wrap.positions);
+    mesh.indices = std::move(wrap.indices);
+    return mesh;
+}
+
+/// errors: as wrapMesh; `fail` makes them
+template <typename Fail>
+Result<mesh::SourceMesh> wrapSurface(const mesh::SourceMesh& source, const WrapOptions& options,
+                                     const Fail& fail)
+{
+    std::vector<uint32_t> numbers;
+    const Surface surface = makeSurface(source, &numbers);
+    if (surface.indices.empty())
+    {
+        mesh::SourceMesh empty;
+        empty.name = source.name;
+        return empty;
+    }
+    const double size = diagonal(surface);
+    const TriangleTree tree(surface);
+    double offset = options.offset * size;
+    std::string fault;
+    for (int i = 0; i < kMaxTries; ++i, offset *= kOffsetGrowth)
+    {
+        std::optional<Surface> wrap =
+            computeAlphaWrap(surface, options.alpha * size, offset, options.max_seconds);
+        if (!wrap)
+            return fail(fmt::format("its wrap takes more than {:g} s: set a larger proxy.alpha",
+                                    options.max_seconds));
+        fault = findFault(*wrap, surface, tree, options.max_seconds);
+        if (fault.empty())
+            return makeMesh(*std::move(wrap), source, tree, numbers);
+    }
+    return fail(fmt::format("{} once its positions are floats: set a larger proxy.offset, or place the mesh "
+                            "nearer to its origin",
+                            fault));
+}
+
+} // namespace
+
+Surface makeSurface(const mesh::SourceMesh& mesh, std::vector<uint32_t>* numbers)
+{
+    const mesh::Weld weld = mesh::weldPositions(mesh.positions);
+    std::vector<uint32_t> index_of_id(weld.position_count, kInvalidIndex);
+    Surface surface;
+    for (uint32_t triangle = 0; triangle < mesh.triangleCount(); ++triangle)
+    {
+        const uint32_t* const vertices = &mesh.indices[3 * size_t{triangle}];
+        if (mesh::isDegenerate(mesh.positions[vertices[0]], mesh.positions[vertices[1]],
+                               mesh.positions[vertices[2]]))
+            continue;
+        for (int corner = 0; corner < 3; ++corner)
+        {
+            uint32_t& index = index_of_id[weld.position_id_of_vertex[vertices[corner]]];
+            if (index == kInvalidIndex)
+            {
+                index = static_cast<uint32_t>(surface.positions.size());
+                surface.positions.push_back(mesh.positions[vertices[corner]]);
+            }
+            surface.indices.push_back(index);
+        }
+        if (numbers != nullptr)
+            numbers->push_back(triangle);
+    }
+    return surface;
+}
+
+Result<mesh::SourceMesh> wrapMesh(const mesh::SourceMesh& source, const WrapOptions& options,
+                                  const std::string& file, uint32_t mesh_index)
+{
+    const auto fail = [&](const std::string& detail) {
+        return Error{Issue::wrap_failed, file, meshText(mesh_index, source.name), detail};
+    };
+    try
+    {
+        return wrapSurface(source, options, fail);
+    }
+    catch (const std::bad_alloc&)
+    {
+        return fail("its wrap needs more memory than --max-memory allows: set a larger proxy.alpha");
+    }
+}
+
+std::string meshText(uint32_t mesh_index, const std::string& name)
+{
+    return fmt::format("mesh {} \"{}\"", mesh_index, name);
+}
+
+} // namespace hearth::wrap
