@@ -1,5 +1,5 @@
-# Rules of `cmake --install`, in four components: the programs, the viewer window, the runtime that games ship
-# with, and the files to build against it. No installed file contains an absolute path: the installation is
+# Rules of `cmake --install`, in five components: the programs, the viewer window, hearth-wrap, the runtime that games
+# ship with, and the files to build against it. No installed file contains an absolute path: the installation is
 # relocatable.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -13,8 +13,15 @@ add_custom_target(hearth_installed DEPENDS ${programs} ${exports})
 set(window_programs ${programs})
 list(FILTER window_programs INCLUDE REGEX "^hearth-view$")
 list(REMOVE_ITEM programs ${window_programs})
+# hearth-wrap is one, too: it is under the GPL, as CGAL is.
+set(wrap_programs ${programs})
+list(FILTER wrap_programs INCLUDE REGEX "^hearth-wrap$")
+list(REMOVE_ITEM programs ${wrap_programs})
 if(programs)
   install(TARGETS ${programs} RUNTIME COMPONENT programs)
+endif()
+if(wrap_programs)
+  install(TARGETS ${wrap_programs} RUNTIME COMPONENT wrap)
 endif()
 if(window_programs)
   # built on demand, so it may not exist

@@ -14,6 +14,8 @@ libstdc++|-|-
 libzstd|Zstandard|BSD-3-Clause
 libxxhash|xxHash|BSD-2-Clause
 libfmt|fmt|MIT
+libgmp|GMP|LGPL-3.0-or-later
+libmpfr|MPFR|LGPL-3.0-or-later
 libcrypto|OpenSSL|Apache-2.0
 libtbb|oneTBB|Apache-2.0
 libembree|Embree|Apache-2.0
@@ -66,6 +68,7 @@ for file in "$folder"/hearth "$folder"/hearth-* "$runtime"; do
       if (field[2] != "-") print field[2] " (" field[3] ")"
     }' | LC_ALL=C sort -u)
   gpl=no
+  [[ $name != hearth-wrap ]] || gpl=**yes** # CGAL has no shared library
   ! grep -q '[( ]GPL' <<<"$libraries" || gpl=**yes**
   echo "| \`${name%%.so*}\` | ${libraries//$'\n'/, } | $gpl |"
 done

@@ -50,7 +50,7 @@ std::string findFault(const Surface& wrap, const Surface& source, const Triangle
         return "it is no surface";
     if (std::adjacent_find(wrap.positions.begin(), wrap.positions.end()) != wrap.positions.end() ||
         hasCollapsedTriangle(wrap))
-        return "triangles collapse";
+        return "its triangles collapse";
     const std::optional<SelfIntersections> found = findSelfIntersections(wrap, 1, max_seconds);
     if (!found || found->count > 0)
         return "it intersects itself";
@@ -101,15 +101,14 @@ Result<mesh::SourceMesh> wrapSurface(const mesh::SourceMesh& source, const WrapO
         std::optional<Surface> wrap =
             computeAlphaWrap(surface, options.alpha * size, offset, options.max_seconds);
         if (!wrap)
-            return fail(fmt::format("its wrap takes more than {:g} s: set a larger proxy.alpha",
-                                    options.max_seconds));
+            return fail(
+                fmt::format("its wrap takes more than {:g} s of processor time", options.max_seconds));
         fault = findFault(*wrap, surface, tree, options.max_seconds);
         if (fault.empty())
             return makeMesh(*std::move(wrap), source, tree, numbers);
     }
-    return fail(fmt::format("{} once its positions are floats: set a larger proxy.offset, or place the mesh "
-                            "nearer to its origin",
-                            fault));
+    return fail(
+        fmt::format("{} once its positions are floats: they are coarse this far from the origin", fault));
 }
 
 } // namespace
@@ -153,7 +152,7 @@ Result<mesh::SourceMesh> wrapMesh(const mesh::SourceMesh& source, const WrapOpti
     }
     catch (const std::bad_alloc&)
     {
-        return fail("its wrap needs more memory than --max-memory allows: set a larger proxy.alpha");
+        return fail("its wrap needs more memory than --max-memory allows");
     }
 }
 

@@ -109,9 +109,8 @@ Result<std::string> describeSelfIntersections(const std::string& import_path, do
             findSelfIntersections(surface, kMaxListedPairs, max_seconds);
         if (!found)
             return Error{
-                Issue::wrap_failed, import_path, meshText(index, mesh.name),
-                fmt::format("its self-intersections take more than {:g} s: set a longer --max-seconds",
-                            max_seconds)};
+                Issue::input_too_large, import_path, meshText(index, mesh.name),
+                fmt::format("its self-intersections take more than {:g} s of processor time", max_seconds)};
         Json pairs = Json::array();
         for (const TrianglePair& pair : found->pairs)
             pairs.push_back(Json::array({numbers[pair.a], numbers[pair.b]}));

@@ -151,6 +151,7 @@ inline constexpr std::array kAims = {
     Aim{"receiver-scene", "rms error of all lamps beside paths", Bound::at_most, 0.08},
     Aim{"receiver-bake", "s of processor for a million texels, 8 lights, one bounce", Bound::at_most, 120},
     Aim{"receiver-bake", "s of processor for a million texels, 8 lights, all bounces", Bound::at_most, 120},
+    Aim{"wrap", "s of processor for 200,000 triangles", Bound::at_most, 10},
     Aim{"kills", "packs, caches or folders that a kill broke", Bound::at_most, 0},
     Aim{"kills", "kills that caught a cook at work", Bound::at_least, 50},
     Aim{"marchLanesFromFaces", "items_per_second", Bound::at_least, 5e6},

@@ -24,6 +24,13 @@ TEST_F(Packages, holdWhatTheirNamesSay)
             << program;
     EXPECT_EQ(countOccurrences(content("hearth"), "./usr/bin/hearth-view\n"), 0u);
     EXPECT_EQ(countOccurrences(content("hearth"), "./usr/lib"), 0u);
+    // the GPL of CGAL is that of one package alone
+    EXPECT_EQ(countOccurrences(content("hearth"), "./usr/bin/hearth-wrap\n"), 0u);
+#ifdef HEARTH_HAS_WRAP
+    EXPECT_EQ(countOccurrences(content("hearth-wrap"), "./usr/bin/"), 2u) << "the folder and the program";
+    EXPECT_EQ(countOccurrences(content("hearth-wrap"), "./usr/bin/hearth-wrap\n"), 1u);
+    EXPECT_EQ(countOccurrences(field("hearth-wrap", "Depends"), "libgmp10 ("), 1u);
+#endif
     for (const char* needed : {"libc6 (", "libtbb12 (", "libembree3-3 (", "libvulkan1"})
         EXPECT_EQ(countOccurrences(field("hearth", "Depends"), needed), 1u) << needed;
 
