@@ -1,5 +1,5 @@
-// The algorithm is by C. Portaneri, M. Rouxel-Labbe, M. Hemmer, D. Cohen-Steiner, P. Alliez, "Alpha Wrapping
-// with an Offset", 2022.
+// The algorithm is by C. Portaneri, M. Rouxel-Labbe, M. Hemmer, D. Cohen-Steiner and P. Alliez, "Alpha
+// Wrapping with an Offset", 2022.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/wrap/cgal_wrap.h"
 
@@ -249,7 +249,7 @@ std::optional<SelfIntersections> findSelfIntersections(const Surface& surface, s
                                       [&](const Box& a, const Box& b)
                                       {
                                           deadline.check();
-                                          const auto [low, high] = std::minmax(a.info(), b.info());
+                                          const auto [low, high] = std::minmax({a.info(), b.info()});
                                           if (intersect(surface, low, high))
                                               first.add({low, high});
                                       });
