@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <new>
 
 namespace hearth::wrap
@@ -43,16 +44,15 @@ bool hasCollapsedTriangle(const Surface& surface)
 }
 
 /// Return the guarantee that a wrap breaks once it is rounded; "" if it holds all.
-std::string findFault(const Surface& wrap, const Surface& source, const TriangleTree& tree,
-                      double max_seconds)
+std::string findFault(const Surface& wrap, const Surface& source, const TriangleTree& tree)
 {
     if (wrap.indices.empty())
         return "it is no surface";
     if (std::adjacent_find(wrap.positions.begin(), wrap.positions.end()) != wrap.positions.end() ||
         hasCollapsedTriangle(wrap))
         return "its triangles collapse";
-    const std::optional<SelfIntersections> found = findSelfIntersections(wrap, 1, max_seconds);
-    if (!found || found->count > 0)
+    // without a limit of time: the wrap had one, and took longer
+    if (findSelfIntersections(wrap, 1, std::numeric_limits<double>::infinity())->count > 0)
         return "it intersects itself";
     if (tree.touches(wrap))
         return "it touches the source";
@@ -103,12 +103,12 @@ Result<mesh::SourceMesh> wrapSurface(const mesh::SourceMesh& source, const WrapO
         if (!wrap)
             return fail(
                 fmt::format("its wrap takes more than {:g} s of processor time", options.max_seconds));
-        fault = findFault(*wrap, surface, tree, options.max_seconds);
+        fault = findFault(*wrap, surface, tree);
         if (fault.empty())
             return makeMesh(*std::move(wrap), source, tree, numbers);
     }
-    return fail(
-        fmt::format("{} once its positions are floats: they are coarse this far from the origin", fault));
+    return fail(fmt::format("{} once its positions are floats, with an offset of {:g} m and less", fault,
+                            offset / kOffsetGrowth));
 }
 
 } // namespace

@@ -218,7 +218,8 @@ TEST(WrapMesh, FloatsTooCoarseForTheOffsetAreAnError)
     EXPECT_EQ(wrap.error().issue, Issue::wrap_failed);
     EXPECT_EQ(wrap.error().file, "far.part");
     EXPECT_EQ(wrap.error().where, "mesh 3 \"leaf\"");
-    EXPECT_NE(wrap.error().detail.find("far from the origin"), std::string::npos) << wrap.error().detail;
+    EXPECT_NE(wrap.error().detail.find("once its positions are floats"), std::string::npos)
+        << wrap.error().detail;
 }
 
 TEST(WrapMesh, LargerOffsetHoldsWhereFloatsAreCoarse)
