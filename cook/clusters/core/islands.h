@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cook/clusters/core/index_types.h"
+#include "formats/base/disjoint_sets.h"
 #include "formats/base/math.h"
 
 #include <cstdint>

@@ -4,6 +4,7 @@
 #include "pipelines/command/inspect/open_pack.h"
 #include "pipelines/command/shell/verb_tools.h"
 #include "pipelines/command/shell/verbs.h"
+#include "pipelines/command/topology/inspect_topology.h"
 
 #include <cmath>
 
@@ -26,7 +27,8 @@ int inspect(const std::string& file, const std::string& format)
 
 void addInspect(cli::CommandLine& app, VerbAction& run)
 {
-    cli::CommandLine& verb = app.addSubcommand("inspect", "Say what is in a pack");
+    cli::CommandLine& verb =
+        app.addSubcommand("inspect", "Say what is in a pack, or what is wrong with the meshes of a source");
     struct Options
     {
         std::string file;
@@ -34,9 +36,12 @@ void addInspect(cli::CommandLine& app, VerbAction& run)
         bool bounds = false;
         std::string animation;
         double time = 0;
+        bool topology = false;
+        std::string ply;
     };
     auto options = std::make_shared<Options>();
-    verb.addOption("FILE", options->file, "pack or part").required();
+    verb.addOption("FILE", options->file, "pack or part; with --topology a source or its import part")
+        .required();
     addFormat(verb, options->format);
     const cli::Option bounds = verb.addFlag(
         "--bounds", options->bounds, "the boxes of all clusters of a pack in a pose, with --format json");
@@ -44,14 +49,26 @@ void addInspect(cli::CommandLine& app, VerbAction& run)
                                                  "clip of the pose: its name, or its index if it has none")
                                       .needs(bounds);
     verb.addOption("--time", options->time, "seconds from the start of the clip").needs(animation);
+    const cli::Option topology =
+        verb.addFlag("--topology", options->topology,
+                     "of each mesh of a source: pieces, boundary loops, non-manifold edges and vertices, "
+                     "flipped and doubled shells, genus, T-junctions, self-intersections")
+            .excludes(bounds);
+    verb.addOption("--ply", options->ply,
+                   "PLY file to write: these findings as coloured points, edges and faces, for Blender or "
+                   "MeshLab")
+        .needs(topology);
     verb.setFooter("Examples:\n"
                    "  hearth inspect village.hearth --format json\n"
-                   "  hearth inspect fox.hearth --bounds --animation Run --time 0.5 --format json");
+                   "  hearth inspect fox.hearth --bounds --animation Run --time 0.5 --format json\n"
+                   "  hearth inspect rock.glb --topology --ply findings.ply");
     verb.setAction(
         [options, animation, &run]
         {
             run = [options, animation]
             {
+                if (options->topology)
+                    return inspectTopology({options->file, options->format == "json", options->ply});
                 if (!options->bounds)
                     return inspect(options->file, options->format);
                 if (options->format != "json")

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/topology/self_intersections.h"
+
+#include "cook/tools/child_processes.h"
+#include "formats/base/regular_file.h"
+#include "pipelines/command/shell/run_programs.h"
+
+#include <filesystem>
+
+namespace hearth::command
+{
+
+namespace
+{
+
+SelfIntersections readMesh(const Json& json)
+{
+    SelfIntersections found;
+    found.triangle_pairs = json["intersecting_triangle_pairs"].get<uint64_t>();
+    for (const Json& pair : json["pairs"])
+        found.pairs.push_back({pair[0].get<uint32_t>(), pair[1].get<uint32_t>()});
+    return found;
+}
+
+} // namespace
+
+SelfIntersectionCheck findSelfIntersections(const std::string& part, const std::string& folder,
+                                            const std::string& subject)
+{
+    std::error_code error;
+    if (!std::filesystem::exists(tools::programFolder() + "/hearth-wrap", error))
+        return {"hearth-wrap is not installed", {}};
+    const std::string output = folder + "/intersections.json";
+    if (const auto failure = runPrograms({{"wrap", subject, {part, "--self-intersections", output}}}))
+        return {failure->error, {}};
+    SelfIntersectionCheck check;
+    const Result<std::string> text = readFile(output);
+    const std::optional<Json> json = text.ok() ? Json::parse(*text) : std::nullopt;
+    try
+    {
+        if (!json)
+            return {"hearth-wrap wrote no JSON", {}};
+        for (const Json& mesh : (*json)["meshes"])
+            check.meshes[mesh["mesh"].get<uint32_t>()] = readMesh(mesh);
+    }
+    catch (const JsonError& e)
+    {
+        return {std::string("hearth-wrap wrote other JSON than expected: ") + e.what(), {}};
+    }
+    return check;
+}
+
+} // namespace hearth::command
