@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace hearth::topology
 {
@@ -115,8 +116,10 @@ private:
         std::vector<uint32_t>& sorted = sorted_;
         sorted.assign(half_edges.begin(), half_edges.end());
         const auto findShell = [&](uint32_t half_edge) { return shells_.shell_of_triangle[half_edge / 3]; };
-        std::stable_sort(sorted.begin(), sorted.end(),
-                         [&](uint32_t a, uint32_t b) { return findShell(a) < findShell(b); });
+        if (sorted.size() > 2) // the two triangles of other edges are of one shell
+            std::sort(sorted.begin(), sorted.end(),
+                      [&](uint32_t a, uint32_t b)
+                      { return std::pair(findShell(a), a) < std::pair(findShell(b), b); });
         for (size_t i = 0, end = 0; i < sorted.size(); i = end)
         {
             const uint32_t shell = findShell(sorted[i]);

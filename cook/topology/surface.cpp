@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace hearth::topology
 {
@@ -34,7 +35,7 @@ std::vector<DoubledTriangle> findDoubled(const std::vector<Corners>& triangles, 
                                                for (uint32_t t = 0; t < triangles.size(); ++t)
                                                    add(triangles[t][0], t);
                                            });
-    const auto sortOthers = [&](uint32_t triangle)
+    const auto getOthers = [&](uint32_t triangle)
     {
         const auto& [lowest, b, c] = triangles[triangle];
         return std::pair(std::min(b, c), std::max(b, c));
@@ -43,10 +44,11 @@ std::vector<DoubledTriangle> findDoubled(const std::vector<Corners>& triangles, 
     for (size_t position = 0; position < position_count; ++position)
     {
         const std::span<uint32_t> list = triangles_of_lowest[position];
-        std::stable_sort(list.begin(), list.end(),
-                         [&](uint32_t a, uint32_t b) { return sortOthers(a) < sortOthers(b); });
+        std::sort(list.begin(), list.end(),
+                  [&](uint32_t a, uint32_t b)
+                  { return std::pair(getOthers(a), a) < std::pair(getOthers(b), b); });
         for (size_t i = 1, first = 0; i < list.size(); ++i)
-            if (sortOthers(list[i]) == sortOthers(list[first]))
+            if (getOthers(list[i]) == getOthers(list[first]))
                 doubled.push_back({list[first], list[i], triangles[list[first]][1] != triangles[list[i]][1]});
             else
                 first = i;

@@ -67,6 +67,8 @@ void addInspect(cli::CommandLine& app, VerbAction& run)
         {
             run = [options, animation]
             {
+                if (options->ply == "-")
+                    return printUsageError("--ply needs a file: the report is printed");
                 if (options->topology)
                     return inspectTopology({options->file, options->format == "json", options->ply});
                 if (!options->bounds)

@@ -242,8 +242,11 @@ public:
     FindingGroup collectIntersections(const SelfIntersections& intersections) const
     {
         FindingGroup group{.finding = Finding::self_intersections, .count = intersections.triangle_pairs};
+        std::vector<std::array<uint32_t, 2>> pairs = intersections.pairs;
+        std::erase_if(pairs, [&](const auto& pair) // another program names them: it is not trusted
+                      { return std::max(pair[0], pair[1]) >= mesh_.triangleCount(); });
         std::vector<uint32_t> triangles;
-        for (const auto& pair : intersections.pairs)
+        for (const auto& pair : pairs)
             triangles.insert(triangles.end(), pair.begin(), pair.end());
         std::sort(triangles.begin(), triangles.end());
         triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
@@ -251,8 +254,8 @@ public:
             addFace(group.geometry, findTriangle(triangle));
         group.detail = "pairs";
         if (!triangles.empty())
-            group.detail += "; the first " + atText(findTriangle(intersections.pairs[0][0])[0]);
-        group.json = {{"list", intersections.pairs}};
+            group.detail += "; the first " + atText(findTriangle(pairs[0][0])[0]);
+        group.json = {{"list", pairs}};
         return group;
     }
 

@@ -28,7 +28,7 @@ std::string shellsText(const std::vector<topology::Shell>& shells)
     for (const topology::Shell& shell : shells)
     {
         std::string words = shellSideName(shell.side);
-        if (shell.genus && *shell.genus > 0)
+        if (shell.genus)
             words += fmt::format(" of genus {}", *shell.genus);
         ++counts[words];
     }
@@ -85,9 +85,10 @@ std::string topologyText(const TopologyReport& report)
     std::stable_sort(faulty.begin(), faulty.end(),
                      [](const MeshFindings* a, const MeshFindings* b) { return isWorse(*a, *b); });
     std::string text =
-        fmt::format("{}: {} meshes, {} with findings. Vertices at equal positions count as one, copies of "
+        fmt::format("{}: {} {}, {} with findings. Vertices at equal positions count as one, copies of "
                     "triangles are left out of all other findings\n",
-                    printable(report.source), report.meshes.size(), faulty.size());
+                    printable(report.source), report.meshes.size(),
+                    report.meshes.size() == 1 ? "mesh" : "meshes", faulty.size());
     for (const MeshFindings* mesh : faulty)
         text += meshText(*mesh);
     // A mesh without findings has its line too: shells and genus are of interest.
