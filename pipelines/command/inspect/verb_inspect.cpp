@@ -54,9 +54,10 @@ void addInspect(cli::CommandLine& app, VerbAction& run)
                      "of each mesh of a source: pieces, boundary loops, non-manifold edges and vertices, "
                      "flipped and doubled shells, genus, T-junctions, self-intersections")
             .excludes(bounds);
-    verb.addOption("--ply", options->ply,
-                   "PLY file to write: these findings as coloured points, edges and faces, for Blender or "
-                   "MeshLab")
+    verb.addOption(
+            "--ply", options->ply,
+            "PLY file to write: these findings as coloured points, edges and faces, for Blender or MeshLab; "
+            "a folder gets a file for each kind")
         .needs(topology);
     verb.setFooter("Examples:\n"
                    "  hearth inspect village.hearth --format json\n"

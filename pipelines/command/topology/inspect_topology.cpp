@@ -9,9 +9,11 @@
 #include "pipelines/command/topology/self_intersections.h"
 #include "pipelines/command/topology/topology_report.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 
 namespace hearth::command
 {
@@ -68,6 +70,37 @@ Result<TopologyReport> makeReport(const std::string& path, const TopologyOptions
     return report;
 }
 
+/// Write a file for each kind of findings that can be drawn. Files of kinds that are mended are
+/// removed, so that the folder shows the source as it is.
+Status writePlyFolder(const TopologyReport& report, const std::string& folder)
+{
+    for (size_t kind = 0; kind < findingKinds().size(); ++kind)
+    {
+        const auto finding = static_cast<Finding>(kind);
+        const std::string path = folder + "/" + std::string(findingKinds()[kind].key) + ".ply";
+        const bool is_drawn = std::any_of(report.meshes.begin(), report.meshes.end(),
+                                          [&](const MeshFindings& mesh)
+                                          {
+                                              const FindingGroup* const group = findGroup(mesh, finding);
+                                              return group != nullptr && !group->geometry.positions.empty();
+                                          });
+        std::error_code ignored; // usually there is none
+        if (is_drawn)
+            HEARTH_TRY(writeText(path, topologyPly(report, finding)));
+        else
+            std::filesystem::remove(path, ignored);
+    }
+    return success();
+}
+
+Status writePly(const TopologyReport& report, const std::string& output)
+{
+    std::error_code ignored; // what is no folder is a file to write
+    if (std::filesystem::is_directory(output, ignored))
+        return writePlyFolder(report, output);
+    return writeText(output, topologyPly(report, std::nullopt));
+}
+
 } // namespace
 
 int inspectTopology(const TopologyOptions& options)
@@ -91,7 +124,7 @@ int inspectTopology(const TopologyOptions& options)
     if (!report.ok())
         return printError(report.error());
     if (!options.ply.empty())
-        if (const Status status = writeText(options.ply, topologyPly(*report)); !status.ok())
+        if (const Status status = writePly(*report, options.ply); !status.ok())
             return printError(status.error());
     return printResult(options.is_json ? topologyJson(*report) : topologyText(*report));
 }

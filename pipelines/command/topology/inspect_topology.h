@@ -11,7 +11,7 @@ struct TopologyOptions
 {
     std::string source; ///< source file, which is imported, or an import part
     bool is_json = false;
-    std::string ply; ///< file for the findings as geometry; empty: none
+    std::string ply; ///< file for findings as geometry, or folder of a file for each kind; empty: none
 };
 
 /// Print the report.

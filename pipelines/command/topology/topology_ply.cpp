@@ -35,13 +35,15 @@ struct Rows
 
 } // namespace
 
-std::string topologyPly(const TopologyReport& report)
+std::string topologyPly(const TopologyReport& report, std::optional<Finding> only)
 {
     Rows vertices, faces, edges;
     std::vector<uint64_t> counts(findingKinds().size(), 0);
     for (size_t i = 0; i < report.meshes.size(); ++i)
         for (const FindingGroup& group : report.meshes[i].groups)
         {
+            if (only && *only != group.finding)
+                continue;
             const uint32_t first = vertices.count;
             const auto [red, green, blue] = describeFinding(group.finding).color;
             for (const Float3 position : group.geometry.positions)

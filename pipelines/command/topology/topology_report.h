@@ -25,8 +25,9 @@ std::string topologyText(const TopologyReport& report);
 /// Return the report as JSON, schema "hearth.topology/1".
 std::string topologyJson(const TopologyReport& report);
 
-/// Return all findings as a binary PLY file in world space: points, edges and faces in the colours of
-/// their kinds, which the header's comments list.
-std::string topologyPly(const TopologyReport& report);
+/// Return findings as a binary PLY file in world space: points, edges and faces in the colours of their
+/// kinds, which the header's comments list.
+/// only  one kind; nullopt: all
+std::string topologyPly(const TopologyReport& report, std::optional<Finding> only);
 
 } // namespace hearth::command

@@ -147,6 +147,22 @@ TEST_F(InspectTopology, reportsAHoleWithAdviceAndAsGeometry)
     EXPECT_EQ(folder.list(), (std::vector<std::string>{"cubes.obj", "holes.ply", "open.obj"}));
 }
 
+TEST_F(InspectTopology, writesAFileOfEachKindIntoAFolder)
+{
+    std::filesystem::create_directory(folder / "found");
+    folder.write("twice.obj", makeCubes({0}, 2) + "f 1 3 4\n");
+    ASSERT_EQ(inspect({"twice.obj", "--ply", "found"}).exit_code, 0);
+    EXPECT_EQ(parsePly(folder.read("found/boundary_loops.ply")).counts,
+              (std::map<std::string, size_t>{{"vertex", 4}, {"face", 0}, {"edge", 4}}));
+    EXPECT_EQ(parsePly(folder.read("found/doubled_triangles.ply")).counts,
+              (std::map<std::string, size_t>{{"vertex", 3}, {"face", 1}, {"edge", 0}}));
+    folder.write("found/mine.ply", "of the artist");
+    ASSERT_EQ(inspect({"open.obj", "--ply", "found"}).exit_code, 0); // without the copy
+    EXPECT_TRUE(folder.has("found/boundary_loops.ply"));
+    EXPECT_FALSE(folder.has("found/doubled_triangles.ply"));
+    EXPECT_TRUE(folder.has("found/mine.ply"));
+}
+
 TEST_F(InspectTopology, placesFindingsWhereTheSceneHasTheMesh)
 {
     // a triangle, drawn at x = 10
@@ -211,7 +227,7 @@ echo '{"meshes": [{"mesh": 0, "name": "open", "intersecting_triangle_pairs": 7, 
                    true);
     const ProgramEnd end = inspect({"open.obj", "--ply", "found.ply"});
     EXPECT_EQ(end.exit_code, 0) << end.err;
-    EXPECT_THAT(end.out, HasSubstr("         7  intersecting triangles: pairs; the first at (0, 0, 0)\n"));
+    EXPECT_THAT(end.out, HasSubstr("         7  intersecting triangles: pairs; the first at (0, 0, 1)\n"));
     EXPECT_THAT(end.out, Not(HasSubstr("not checked")));
     EXPECT_EQ(parsePly(folder.read("found.ply")).counts["face"], 3u);
     // triangle 10 is none of the mesh
