@@ -1,9 +1,8 @@
 // Tests cook/topology on surfaces whose topology is known.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/topology/topology.h"
-#include "formats/base/double3.h"
+#include "tests/cook/topology/expect_boundary.h"
 #include "tests/support/shapes.h"
-#include "tests/support/surfaces/boundary.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -168,38 +167,6 @@ std::vector<ShellSide> findSides(const mesh::SourceMesh& mesh)
     return sides;
 }
 
-/// Compare boundaries with OpenMesh's.
-void expectBoundaryOfOpenMesh(const mesh::SourceMesh& mesh)
-{
-    const Topology topology = analyzeTopology(mesh);
-    const Boundary boundary = findBoundary(topology.surface.corners);
-    EXPECT_EQ(boundary.refused_triangles, 0u);
-    EXPECT_EQ(topology.non_manifold_edges.size() + topology.inconsistent_edges.size(),
-              boundary.complex_edges.size());
-    if (!boundary.complex_edges.empty())
-        return; // OpenMesh cuts these open
-    std::vector<std::pair<size_t, double>> loops, expected;
-    for (const topology::BoundaryLoop& loop : topology.boundary_loops)
-        loops.emplace_back(loop.edgeCount(), loop.length);
-    for (const BoundaryLoop& loop : boundary.loops)
-    {
-        double length = 0;
-        for (size_t i = 0; i < loop.positions.size(); ++i)
-            length += hearth::length(
-                widen(topology.surface.positions[loop.positions[(i + 1) % loop.positions.size()]]) -
-                widen(topology.surface.positions[loop.positions[i]]));
-        expected.emplace_back(loop.positions.size(), length);
-    }
-    std::sort(loops.begin(), loops.end());
-    std::sort(expected.begin(), expected.end());
-    ASSERT_EQ(loops.size(), expected.size());
-    for (size_t i = 0; i < loops.size(); ++i)
-    {
-        EXPECT_EQ(loops[i].first, expected[i].first);
-        EXPECT_NEAR(loops[i].second, expected[i].second, 1e-9 * (1 + expected[i].second));
-    }
-}
-
 } // namespace
 
 TEST(Topology, ofSolidsHasTheirGenusAndVolume)
@@ -306,18 +273,55 @@ TEST(Topology, knowsHollowsFromFlippedShells)
     append(mesh, outer);
     append(mesh, inner);
     EXPECT_THAT(findSides(mesh), ElementsAre(ShellSide::outward, ShellSide::outward, ShellSide::cavity));
-    // the hollow touches the wall from within: rays from its side there are doubtful, others are not
-    mesh = outer;
-    inner = makeBox({0, 3, 3}, {3, 6, 6});
-    turnAround(inner);
-    append(mesh, inner);
-    EXPECT_THAT(findSides(mesh), ElementsAre(ShellSide::outward, ShellSide::cavity));
+    // the hollow touches a wall from within: rays from its side there are doubtful, others are not
+    for (const Float3 min : {Float3{0, 3, 3}, Float3{6, 3, 3}, Float3{3, 0, 3}, Float3{3, 6, 3}})
+    {
+        mesh = outer;
+        inner = makeBox(min, min + Float3{3, 3, 3});
+        turnAround(inner);
+        append(mesh, inner);
+        EXPECT_THAT(findSides(mesh), ElementsAre(ShellSide::outward, ShellSide::cavity));
+    }
     // one that reaches out of the wall is none
     mesh = outer;
     inner = makeBox({3, 3, 3}, {12, 6, 6});
     turnAround(inner);
     append(mesh, inner);
     EXPECT_THAT(findSides(mesh), ElementsAre(ShellSide::outward, ShellSide::flipped));
+    // nor is one that reaches from a ring into its hole
+    mesh = makePlate({"###", "#.#", "###"});
+    inner = makeBox({0.2f, 1.3f, 0.3f}, {1.5f, 1.6f, 0.7f});
+    turnAround(inner);
+    append(mesh, inner);
+    EXPECT_THAT(findSides(mesh), ElementsAre(ShellSide::outward, ShellSide::flipped));
+}
+
+TEST(Topology, ofAProjectivePlaneThatIsCutOpenIsOpen)
+{
+    // The projective plane of six vertices. A fin at each edge of a one-sided cycle makes these edges
+    // non-manifold, and the rest is a disc, whose border does not close: it meets itself the wrong way
+    // round.
+    mesh::SourceMesh mesh;
+    const auto point = [](int i) {
+        return Float3{static_cast<float>(i), static_cast<float>(i * i), static_cast<float>(i * i * i)};
+    };
+    for (const auto& [a, b, c] :
+         {std::array{0, 1, 2}, std::array{0, 2, 3}, std::array{0, 3, 4}, std::array{0, 4, 5},
+          std::array{0, 5, 1}, std::array{1, 2, 4}, std::array{2, 3, 5}, std::array{3, 4, 1},
+          std::array{4, 5, 2}, std::array{5, 1, 3}})
+        addTriangle(mesh, point(a), point(b), point(c));
+    const Topology whole = analyzeTopology(mesh);
+    ASSERT_EQ(whole.shells.shells.size(), 1u);
+    EXPECT_TRUE(whole.shells.shells[0].is_closed);
+    EXPECT_EQ(whole.shells.shells[0].side, ShellSide::unclear);
+    addTriangle(mesh, point(0), point(1), point(7));
+    addTriangle(mesh, point(1), point(3), point(8));
+    addTriangle(mesh, point(3), point(0), point(9));
+    const Topology cut = analyzeTopology(mesh);
+    EXPECT_EQ(cut.non_manifold_edges.size(), 3u);
+    ASSERT_EQ(cut.shells.shells.size(), 4u);
+    EXPECT_TRUE(cut.shells.shells[0].is_orientable);
+    EXPECT_FALSE(cut.shells.shells[0].is_closed);
 }
 
 TEST(Topology, countsTrianglesThatFaceTheOtherSide)
@@ -406,6 +410,14 @@ TEST(Topology, takesNearVerticesForTJunctionsByTheToleranceOnly)
                     {300, -100, 0});
         EXPECT_EQ(analyzeTopology(mesh).t_junctions.size(), distance < 1 ? 1u : 0u);
     }
+}
+
+TEST(Topology, takesNeedlesForNoTJunctions)
+{
+    mesh::SourceMesh mesh;
+    addTriangle(mesh, {0, 0, 0}, {1000, 0, 0}, {0, 1000, 0});
+    addTriangle(mesh, {1000, 0, 0}, {0, 0, 0}, {500, -1e-4f, 0});
+    EXPECT_THAT(analyzeTopology(mesh).t_junctions, IsEmpty());
 }
 
 TEST(Topology, countsTrianglesWithoutAreaAndVerticesWithoutUse)
