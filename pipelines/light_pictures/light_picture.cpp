@@ -30,7 +30,7 @@ std::vector<std::byte> encodePng(const LightPicture& picture, double factor)
     for (const Float3& texel : picture.texels)
         for (int c = 0; c < 3; ++c)
             codes.push_back(displayCode(factor * double{texel[c]}));
-    return texture_files::writePng(picture.width, picture.height, codes);
+    return texture_files::writePng(picture.width, picture.height, {}, codes);
 }
 
 LightPicture shrink(const LightPicture& picture, uint32_t factor)

@@ -3,7 +3,9 @@
 
 #include "formats/base/assert.h"
 
-#include <algorithm>
+#include <zlib.h>
+
+#include <cstdlib>
 #include <string_view>
 
 namespace hearth::texture_files
@@ -14,23 +16,12 @@ namespace
 
 using Codes = std::vector<uint8_t>;
 
+constexpr uint8_t kFilters = 5;
+
 void addBigEndian(Codes& file, uint32_t value)
 {
     for (const int shift : {24, 16, 8, 0})
         file.push_back(static_cast<uint8_t>(value >> shift));
-}
-
-/// Return the cyclic redundancy check of PNG, bit by bit.
-uint32_t checkCycle(std::span<const uint8_t> codes)
-{
-    uint32_t check = 0xFFFFFFFF;
-    for (const uint8_t code : codes)
-    {
-        check ^= code;
-        for (int bit = 0; bit < 8; ++bit)
-            check = check >> 1 ^ ((check & 1) != 0 ? 0xEDB88320u : 0u);
-    }
-    return ~check;
 }
 
 void addChunk(Codes& file, std::string_view type, std::span<const uint8_t> content)
@@ -39,54 +30,108 @@ void addChunk(Codes& file, std::string_view type, std::span<const uint8_t> conte
     const size_t start = file.size();
     file.insert(file.end(), type.begin(), type.end());
     file.insert(file.end(), content.begin(), content.end());
-    addBigEndian(file, checkCycle(std::span(file).subspan(start)));
+    addBigEndian(file, static_cast<uint32_t>(crc32_z(0, file.data() + start, file.size() - start)));
 }
 
-/// Wrap bytes as a zlib stream of stored blocks.
-Codes storeBlocks(std::span<const uint8_t> codes)
+/// Return the neighbour that is nearest to left + above - corner.
+int predictPaeth(int left, int above, int corner)
 {
-    constexpr size_t kMaxBlock = 65535;
-    Codes stream = {0x78, 0x01};
-    uint32_t low = 1, high = 0; // Adler-32
-    for (const uint8_t code : codes)
+    const int to_left = std::abs(above - corner), to_above = std::abs(left - corner),
+              to_corner = std::abs(left + above - 2 * corner);
+    if (to_left <= to_above && to_left <= to_corner)
+        return left;
+    return to_above <= to_corner ? above : corner;
+}
+
+/// Set `result` to the row's differences to what a filter predicts. Returns the sum of their sizes.
+/// above  row before; zeros for the first one
+/// step   bytes of a texel
+template <typename Predict>
+uint64_t filterRow(const Predict& predict, std::span<const uint8_t> row, std::span<const uint8_t> above,
+                   size_t step, std::span<uint8_t> result)
+{
+    uint64_t sum = 0;
+    for (size_t i = 0; i < row.size(); ++i)
     {
-        low = (low + code) % 65521;
-        high = (high + low) % 65521;
+        const int left = i < step ? 0 : row[i - step];
+        const int corner = i < step ? 0 : above[i - step];
+        result[i] = static_cast<uint8_t>(row[i] - predict(left, int{above[i]}, corner));
+        sum += static_cast<uint64_t>(std::abs(static_cast<int8_t>(result[i])));
     }
-    for (size_t at = 0; at < codes.size(); at += kMaxBlock)
+    return sum;
+}
+
+/// The same with the filter of a number.
+uint64_t filterRow(uint8_t filter, std::span<const uint8_t> row, std::span<const uint8_t> above, size_t step,
+                   std::span<uint8_t> result)
+{
+    switch (filter)
     {
-        const auto block = codes.subspan(at, std::min(kMaxBlock, codes.size() - at));
-        stream.push_back(at + block.size() == codes.size() ? 1 : 0);
-        for (const size_t size : {block.size(), ~block.size()})
-        {
-            stream.push_back(static_cast<uint8_t>(size & 255));
-            stream.push_back(static_cast<uint8_t>(size >> 8 & 255));
-        }
-        stream.insert(stream.end(), block.begin(), block.end());
+    case 0:
+        return filterRow([](int, int, int) { return 0; }, row, above, step, result);
+    case 1:
+        return filterRow([](int left, int, int) { return left; }, row, above, step, result);
+    case 2:
+        return filterRow([](int, int up, int) { return up; }, row, above, step, result);
+    case 3:
+        return filterRow([](int left, int up, int) { return (left + up) / 2; }, row, above, step, result);
+    default:
+        return filterRow(predictPaeth, row, above, step, result);
     }
-    addBigEndian(stream, high << 16 | low);
+}
+
+/// Filter each row by the filter with the smallest differences.
+Codes filterRows(std::span<const uint8_t> codes, size_t row_bytes, size_t step)
+{
+    Codes rows;
+    rows.reserve(codes.size() + codes.size() / row_bytes);
+    const Codes zeros(row_bytes);
+    Codes best(row_bytes), candidate(row_bytes);
+    for (size_t at = 0; at < codes.size(); at += row_bytes)
+    {
+        const auto row = codes.subspan(at, row_bytes);
+        const auto above = at == 0 ? std::span(zeros) : codes.subspan(at - row_bytes, row_bytes);
+        uint8_t best_filter = 0;
+        uint64_t smallest = filterRow(best_filter, row, above, step, best);
+        for (uint8_t filter = 1; filter < kFilters; ++filter)
+            if (const uint64_t sum = filterRow(filter, row, above, step, candidate); sum < smallest)
+            {
+                smallest = sum;
+                best_filter = filter;
+                best.swap(candidate);
+            }
+        rows.push_back(best_filter);
+        rows.insert(rows.end(), best.begin(), best.end());
+    }
+    return rows;
+}
+
+Codes deflateCodes(const Codes& codes)
+{
+    uLongf size = compressBound(codes.size());
+    Codes stream(size);
+    HEARTH_ASSERT(compress2(stream.data(), &size, codes.data(), codes.size(), Z_DEFAULT_COMPRESSION) == Z_OK);
+    stream.resize(size);
     return stream;
 }
 
 } // namespace
 
-std::vector<std::byte> writePng(uint32_t width, uint32_t height, std::span<const uint8_t> codes)
+std::vector<std::byte> writePng(uint32_t width, uint32_t height, PngFormat format,
+                                std::span<const uint8_t> codes)
 {
-    HEARTH_ASSERT(width > 0 && height > 0 && codes.size() == size_t{3} * width * height);
+    const size_t step = size_t{format.channels} * format.bits / 8;
+    HEARTH_ASSERT(width > 0 && height > 0 && codes.size() == step * width * height);
+    constexpr uint8_t kColor = 2, kColorAndAlpha = 6;
     Codes header;
     addBigEndian(header, width);
     addBigEndian(header, height);
-    header.insert(header.end(), {8, 2, 0, 0, 0}); // bits, red-green-blue, deflate, filters, no interlace
-    Codes rows;
-    for (uint32_t y = 0; y < height; ++y)
-    {
-        rows.push_back(0); // no filter
-        const auto row = codes.subspan(size_t{3} * width * y, size_t{3} * width);
-        rows.insert(rows.end(), row.begin(), row.end());
-    }
+    header.insert(header.end(),
+                  {static_cast<uint8_t>(format.bits), format.channels == 4 ? kColorAndAlpha : kColor, 0, 0,
+                   0}); // deflate, filters, no interlace
     Codes file = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
     addChunk(file, "IHDR", header);
-    addChunk(file, "IDAT", storeBlocks(rows));
+    addChunk(file, "IDAT", deflateCodes(filterRows(codes, step * width, step)));
     addChunk(file, "IEND", {});
     const auto bytes = std::as_bytes(std::span(file));
     return {bytes.begin(), bytes.end()};

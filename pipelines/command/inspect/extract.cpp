@@ -3,6 +3,8 @@
 
 #include "formats/base/atomic_file.h"
 #include "pipelines/command/inspect/open_pack.h"
+#include "pipelines/export/cut.h"
+#include "pipelines/export/meshes.h"
 
 #include <fmt/format.h>
 
@@ -10,35 +12,12 @@ namespace hearth::command
 {
 
 using namespace formats;
+using gltf_export::findCutClusters;
+using gltf_export::isDeformed;
+using gltf_export::PageCache;
 
 namespace
 {
-
-/// Cache of one decoded page. Clusters of a page follow each other, so one page is enough.
-class PageCache
-{
-public:
-    explicit PageCache(const PackView& pack) : pack_(pack) {}
-
-    Result<ClusterGeometry> clusterGeometry(const ClusterRecord& cluster, const MeshRecord& mesh)
-    {
-        if (cluster.page != page_)
-        {
-            HEARTH_ASSIGN_OR_RETURN(bytes_, pack_.decodePage(cluster.page));
-            page_ = cluster.page;
-        }
-        const auto geometry = ClusterGeometry::at(bytes_, cluster, mesh);
-        if (!geometry)
-            return Error{Issue::meaning_geometry, pack_.name(), chunkName(kChunkPages, 0),
-                         fmt::format("a cluster lies outside page {}", cluster.page)};
-        return *geometry;
-    }
-
-private:
-    const PackView& pack_;
-    uint32_t page_ = kInvalidIndex;
-    std::vector<std::byte> bytes_;
-};
 
 std::string plyHeader(const PackView& pack, const MeshRecord& mesh, std::span<const uint32_t> cut)
 {
@@ -128,27 +107,11 @@ void writeFaces(AtomicFile& file, const ClusterGeometry& geometry, uint32_t firs
 
 } // namespace
 
-std::vector<uint32_t> findCutClusters(const PackView& pack, const MeshRecord& mesh, float error)
-{
-    std::vector<uint32_t> cut;
-    for (uint32_t i = 0; i < mesh.clusters.count; ++i)
-    {
-        const ClusterRecord& cluster = pack.clusters()[mesh.clusters.first + i];
-        const bool fine_enough =
-            cluster.refined_group == kInvalidIndex || pack.groups()[cluster.refined_group].error <= error;
-        if (fine_enough && pack.groups()[cluster.group].error > error)
-            cut.push_back(mesh.clusters.first + i);
-    }
-    return cut;
-}
-
 Status extractCut(const std::string& path, uint32_t mesh, float error, const std::optional<ClipTime>& clip,
                   const std::string& output)
 {
     HEARTH_ASSIGN_OR_RETURN(const PackView pack, openPack(path));
-    if (mesh >= pack.meshes().size())
-        return Error{Issue::usage, path, "",
-                     fmt::format("there is no mesh {}: the file has {}", mesh, pack.meshes().size())};
+    HEARTH_TRY(checkMesh(pack, path, mesh));
     const MeshRecord& record = pack.meshes()[mesh];
     const std::vector<uint32_t> cut = findCutClusters(pack, record, error);
     std::optional<PosedMesh> pose;

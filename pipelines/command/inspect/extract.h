@@ -7,15 +7,9 @@
 
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace hearth::command
 {
-
-/// Return the clusters that are drawn at object-space error `error`, as indices into the table of clusters.
-/// The rule is documented at GroupRecord. The clusters cover the mesh once.
-std::vector<uint32_t> findCutClusters(const formats::PackView& pack, const formats::MeshRecord& mesh,
-                                      float error);
 
 /// Write the cut of mesh `mesh` as binary little-endian PLY. Properties of a vertex: x y z, then, if the mesh
 /// has them, nx ny nz; the cone that has the moments of the vertex's visibility (axis_x axis_y axis_z,

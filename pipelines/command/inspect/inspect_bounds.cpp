@@ -5,6 +5,8 @@
 #include "formats/codecs/cluster_bounds.h"
 #include "pipelines/command/inspect/extract.h"
 #include "pipelines/command/inspect/open_pack.h"
+#include "pipelines/export/cut.h"
+#include "pipelines/export/meshes.h"
 
 #include <map>
 
@@ -12,6 +14,7 @@ namespace hearth::command
 {
 
 using namespace formats;
+using gltf_export::isDeformed;
 
 namespace
 {
@@ -35,7 +38,7 @@ std::map<uint32_t, uint32_t> firstTriangles(const PackView& pack, const MeshReco
 {
     std::map<uint32_t, uint32_t> first;
     uint32_t triangles = 0;
-    for (const uint32_t cluster : findCutClusters(pack, mesh, 0))
+    for (const uint32_t cluster : gltf_export::findCutClusters(pack, mesh, 0))
     {
         first[cluster] = triangles;
         triangles += pack.clusters()[cluster].triangle_count;

@@ -18,4 +18,7 @@ Result<formats::PackView> openContainer(const std::string& path);
 /// Same, for packs only. errors: container_kind if the file is a part.
 Result<formats::PackView> openPack(const std::string& path);
 
+/// Check that a mesh exists. errors: usage
+Status checkMesh(const formats::PackView& pack, const std::string& path, uint32_t mesh);
+
 } // namespace hearth::command

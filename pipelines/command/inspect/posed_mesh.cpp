@@ -84,11 +84,6 @@ Float3 turnVector(const Affine3d& world_from_vertex, Double3 vector, Double3 nor
 
 } // namespace
 
-bool isDeformed(const MeshRecord& mesh)
-{
-    return mesh.skinned != 0 || mesh.morph_target_count != 0;
-}
-
 Result<PosedMesh> PosedMesh::make(const PackView& pack, uint32_t mesh, const std::optional<ClipTime>& clip)
 {
     const AnimationTables tables = animationTables(pack);

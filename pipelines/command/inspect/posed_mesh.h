@@ -51,7 +51,4 @@ private:
     std::vector<double> morph_weights_; ///< of the node; missing ones are 0
 };
 
-/// True if joints or morph targets can move the vertices of the mesh.
-bool isDeformed(const formats::MeshRecord& mesh);
-
 } // namespace hearth::command

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "pipelines/command/inspect/extract.h"
 #include "pipelines/command/inspect/extract_bricks.h"
+#include "pipelines/command/inspect/extract_gltf.h"
 #include "pipelines/command/inspect/extract_probe.h"
 #include "pipelines/command/inspect/extract_proxy.h"
 #include "pipelines/command/inspect/extract_receivers.h"
@@ -16,15 +17,15 @@ namespace hearth::command
 
 void addExtract(cli::CommandLine& app, VerbAction& run)
 {
-    cli::CommandLine& verb =
-        app.addSubcommand("extract", "Write a level of detail of a mesh or its proxy as PLY, a texture as "
-                                     "KTX2, a light probe, receivers, or "
-                                     "a table as CSV");
+    cli::CommandLine& verb = app.addSubcommand(
+        "extract", "Write a pack as glTF, a level of detail of a mesh or its proxy as PLY, a "
+                   "texture as KTX2, a light probe, receivers, or a table as CSV");
     struct Options
     {
         std::string file;
         uint32_t mesh = 0;
         float error = 0;
+        bool has_lods = false;
         std::string part;
         std::string animation;
         double time = 0;
@@ -36,11 +37,14 @@ void addExtract(cli::CommandLine& app, VerbAction& run)
     };
     auto options = std::make_shared<Options>();
     verb.addOption("FILE", options->file, "pack").required();
-    cli::Option mesh = verb.addOption("--mesh", options->mesh, "index of the mesh");
-    cli::Option error = verb.addOption("--error", options->error,
-                                       "largest error in the mesh's own units; 0: the source's triangles");
-    mesh.needs(error);
-    error.needs(mesh);
+    const cli::Option mesh =
+        verb.addOption("--mesh", options->mesh, "index of the mesh; without it a .glb has the whole scene");
+    const cli::Option error =
+        verb.addOption("--error", options->error,
+                       "largest error in the mesh's own units; 0: the source's triangles, as in a .glb "
+                       "without it");
+    cli::Option lods =
+        verb.addFlag("--lods", options->has_lods, "add the coarser levels to a .glb, as MSFT_lod");
     const cli::Option part =
         verb.addOption("--part", options->part,
                        "instead of a mesh; specular: its table, bricks: the faces of all solid voxels")
@@ -81,20 +85,33 @@ void addExtract(cli::CommandLine& app, VerbAction& run)
                                            "clip that poses the mesh: its name, or its index if it has none");
     animation.needs(mesh);
     verb.addOption("--time", options->time, "seconds from the start of the clip").needs(animation);
-    verb.addOption("-o,--output", options->output, "PLY, OBJ, KTX2, CSV, EXR or PNG file to write")
+    verb.addOption("-o,--output", options->output, "GLB, PLY, OBJ, KTX2, CSV, EXR or PNG file to write")
         .required();
-    verb.setFooter("Example: hearth extract village.hearth --mesh 0 --error 0.01 -o cut.ply");
+    verb.setFooter("Examples:\n"
+                   "  hearth extract village.hearth -o village.glb\n"
+                   "  hearth extract village.hearth --mesh 0 --error 0.01 -o cut.ply");
     verb.setCheck(
-        [mesh, part, texture, probe, proxy, receivers]
+        [options, mesh, error, lods, animation, part, texture, probe, proxy, receivers]
         {
-            const size_t given = mesh.count() + part.count() + texture.count() + probe.count() +
-                                 proxy.count() + receivers.count();
-            return given == 0 ? "--mesh is required" : "";
+            const size_t others =
+                part.count() + texture.count() + probe.count() + proxy.count() + receivers.count();
+            if (isGltfName(options->output))
+                return others > 0              ? "a .glb holds meshes: leave --part, --texture, --probe, "
+                                                 "--proxy and --receivers out, or write another kind of file"
+                       : animation.count() > 0 ? "a .glb holds all clips: leave --animation out"
+                                               : "";
+            if (lods.count() > 0)
+                return "--lods needs an output that ends in .glb";
+            if (mesh.count() + others == 0)
+                return "--mesh is required, or an output that ends in .glb";
+            if (mesh.count() > 0 && error.count() == 0)
+                return "--mesh requires --error";
+            return error.count() > 0 && mesh.count() == 0 ? "--error requires --mesh" : "";
         });
     verb.setAction(
-        [options, part, texture, probe, proxy, receivers, animation, &run]
+        [options, mesh, part, texture, probe, proxy, receivers, animation, &run]
         {
-            run = [options, part, texture, probe, proxy, receivers, animation]
+            run = [options, mesh, part, texture, probe, proxy, receivers, animation]
             {
                 if (receivers.count() > 0)
                 {
@@ -128,6 +145,12 @@ void addExtract(cli::CommandLine& app, VerbAction& run)
                     return printUsageError("--error must be a number from 0 on");
                 if (!std::isfinite(options->time))
                     return printUsageError("--time must be a number");
+                if (isGltfName(options->output))
+                {
+                    const auto cut = mesh.count() > 0 ? std::optional(options->mesh) : std::nullopt;
+                    return printResult(extractGltf(options->file, {cut, options->error, options->has_lods},
+                                                   options->output));
+                }
                 std::optional<ClipTime> clip;
                 if (animation.count() > 0)
                     clip = ClipTime{options->animation, options->time};

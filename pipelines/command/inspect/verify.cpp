@@ -45,6 +45,14 @@ Result<PackView> openPack(const std::string& path)
     return view;
 }
 
+Status checkMesh(const PackView& pack, const std::string& path, uint32_t mesh)
+{
+    if (mesh < pack.meshes().size())
+        return success();
+    return Error{Issue::usage, path, "",
+                 fmt::format("there is no mesh {}: the file has {}", mesh, pack.meshes().size())};
+}
+
 Result<std::string> verifyFile(const std::string& path)
 {
     HEARTH_ASSIGN_OR_RETURN(const PackView view, openContainer(path));
