@@ -33,24 +33,18 @@ uint16_t codeLight(uint16_t half)
     return static_cast<uint16_t>(std::lround(code * 255) * 257);
 }
 
-/// Set z of a normal from x and y.
+/// Set z of a normal from x and y, as shaders do. The nearest code makes the length so near 1 that a second
+/// cook, which scales normals to 1, rounds x and y to the codes that they have.
 void restoreZ(DecodedTexel& texel)
 {
     const double x = texel[0] / 32767.5 - 1, y = texel[1] / 32767.5 - 1;
     texel[2] = toCode((std::sqrt(std::max(0.0, 1 - x * x - y * y)) + 1) / 2);
 }
 
-bool isBlueStored(const ImageRecord& image)
-{
-    return findTexelFormat(image.format)->channels >= 3 &&
-           (image.swizzle[2] == static_cast<uint8_t>(Swizzle::identity) ||
-            image.swizzle[2] >= static_cast<uint8_t>(Swizzle::red));
-}
-
 std::vector<DecodedTexel> readTexels(const ImageRecord& image, std::span<const std::byte> mips)
 {
     const bool is_light = findTexelFormat(image.format)->coding == TexelCoding::float_value;
-    const bool lacks_z = (image.flags & kImageNormalMap) != 0 && !isBlueStored(image);
+    const bool is_normal = (image.flags & kImageNormalMap) != 0;
     std::vector<DecodedTexel> texels = decodeImageMip(image, mips, 0);
     applySwizzle(texels, image.swizzle, is_light ? kHalfOne : kOne);
     for (DecodedTexel& texel : texels)
@@ -58,7 +52,7 @@ std::vector<DecodedTexel> readTexels(const ImageRecord& image, std::span<const s
         if (is_light)
             texel = {codeLight(texel[0]), codeLight(texel[1]), codeLight(texel[2]),
                      toCode(double{floatFromHalf(texel[3])})};
-        if (lacks_z)
+        if (is_normal)
             restoreZ(texel);
     }
     return texels;

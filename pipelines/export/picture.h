@@ -12,7 +12,7 @@ namespace hearth::gltf_export
 {
 
 /// Encode the finest mip as shaders read it: 8 bits a channel, 16 where the image has them, without
-/// alpha where all texels are opaque. Normals get the z that the pack leaves to the shader; light is
+/// alpha where all texels are opaque. Normals get the z that shaders make of x and y; light is
 /// clamped to 1 and coded as sRGB.
 /// mips  all of the image, as PackView::imageData returns them
 std::vector<std::byte> encodeImage(const formats::ImageRecord& image, std::span<const std::byte> mips);
