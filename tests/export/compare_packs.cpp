@@ -120,6 +120,39 @@ std::vector<DecodedTexel> readTexels(const PackView& pack, uint32_t image)
     return texels;
 }
 
+/// Return the unit normal of the red and green that shaders read.
+Double3 readNormal(const DecodedTexel& texel)
+{
+    const double x = texel[0] / 32767.5 - 1, y = texel[1] / 32767.5 - 1;
+    const double z = std::sqrt(std::max(0.0, 1 - x * x - y * y)), size = std::sqrt(x * x + y * y + z * z);
+    return {x / size, y / size, z / size};
+}
+
+/// Return the root mean square of the angles between normals, or of the differences of a texture's channels.
+double measureLoss(const std::vector<DecodedTexel>& a, const std::vector<DecodedTexel>& b, bool is_normal,
+                   const std::vector<size_t>& channels)
+{
+    double sum = 0;
+    size_t count = 0;
+    for (size_t i = 0; i < a.size(); ++i)
+    {
+        if (is_normal)
+        {
+            const double angle = std::acos(std::min(1.0, dot(readNormal(a[i]), readNormal(b[i]))));
+            sum += angle * angle;
+            ++count;
+            continue;
+        }
+        for (const size_t c : channels)
+        {
+            const double difference = (a[i][c] - b[i][c]) / 65535.0;
+            sum += difference * difference;
+            ++count;
+        }
+    }
+    return std::sqrt(sum / static_cast<double>(count));
+}
+
 /// Computes where a clip takes the vertices of instances.
 class ClipSampler
 {
@@ -373,6 +406,38 @@ Differences compareTexels(const PackView& a, const PackView& b, uint32_t max_ste
                 expectEqual(differences, where + " largest difference of texels", largest, max_step);
         }
     }
+    return differences;
+}
+
+Differences compareLoss(const PackView& source, const PackView& encoded, const PackView& decoded)
+{
+    Differences differences;
+    size_t compared = 0;
+    for (uint32_t i = 0; i < encoded.materials().size(); ++i)
+    {
+        const auto slots = listSlots(encoded, i), first = listSlots(source, i), last = listSlots(decoded, i);
+        for (size_t slot = 0; slot < slots.size(); ++slot)
+        {
+            if (slots[slot].reference.image == kInvalidIndex)
+                continue;
+            const ImageRecord& record = encoded.images()[slots[slot].reference.image];
+            if (!(record.error > 0))
+                continue;
+            const std::vector<size_t> channels =
+                slots[slot].name == "metallic-roughness" ? std::vector<size_t>{1, 2}
+                : slots[slot].name == "occlusion"        ? std::vector<size_t>{0}
+                                                         : std::vector<size_t>{0, 1, 2};
+            const double loss = measureLoss(readTexels(source, first[slot].reference.image),
+                                            readTexels(decoded, last[slot].reference.image),
+                                            (record.flags & kImageNormalMap) != 0, channels);
+            ++compared;
+            if (!(loss <= 2 * double{record.error}))
+                expectEqual(differences, "material " + std::to_string(i) + " " + slots[slot].name + " loss",
+                            loss, double{record.error});
+        }
+    }
+    if (compared == 0)
+        differences.push_back("no texture has a lossy format");
     return differences;
 }
 

@@ -42,6 +42,13 @@ Differences compareMaterials(const formats::PackView& a, const formats::PackView
 /// max_step  largest difference of a channel that shaders read, in 1/65535
 Differences compareTexels(const formats::PackView& a, const formats::PackView& b, uint32_t max_step);
 
+/// Compare the finest texels with those of the source where an image of `encoded` has a lossy format: their
+/// root mean square error, in the units of ImageRecord::error, may be twice the error that it states.
+/// source  pack with the source's texels
+/// decoded  pack that was cooked from the glTF file of `encoded`, with that file's texels
+Differences compareLoss(const formats::PackView& source, const formats::PackView& encoded,
+                        const formats::PackView& decoded);
+
 /// Compare nodes, lights, cameras, skins and extras.
 Differences compareScenes(const formats::PackView& a, const formats::PackView& b);
 

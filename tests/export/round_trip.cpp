@@ -6,17 +6,20 @@ namespace hearth::test
 
 using formats::PackView;
 
-RoundTrip::RoundTrip(const std::string& source, const std::vector<std::string>& options)
+RoundTrip::RoundTrip(const std::string& source, const std::vector<std::string>& options,
+                     const std::vector<std::string>& second_options)
 {
-    const auto cook = [&](const std::string& from, const std::string& to)
+    const auto cook =
+        [&](const std::string& from, const std::string& to, const std::vector<std::string>& words)
     {
         std::vector<std::string> command{HEARTH_BIN "/hearth", "cook",       from,  "-o", to,
                                          "--no-cache",         "--progress", "none"};
-        command.insert(command.end(), options.begin(), options.end());
+        command.insert(command.end(), words.begin(), words.end());
         return run(command);
     };
-    if (cook(source, firstPath()) && run({HEARTH_BIN "/hearth", "extract", firstPath(), "-o", glbPath()}) &&
-        cook(glbPath(), secondPath()))
+    if (cook(source, firstPath(), options) &&
+        run({HEARTH_BIN "/hearth", "extract", firstPath(), "-o", glbPath()}) &&
+        cook(glbPath(), secondPath(), second_options))
     {
         first_ = open(firstPath());
         second_ = open(secondPath());
@@ -42,9 +45,9 @@ std::unique_ptr<PackView> RoundTrip::open(const std::string& path)
     return view.ok() ? std::make_unique<PackView>(std::move(*view)) : nullptr;
 }
 
-std::vector<std::string> plainTexels()
+std::vector<std::string> texelsOf(const std::string& families)
 {
-    return {"--set", "textures.families=[]", "--visibility", "off", "--bricks", "off"};
+    return {"--set", "textures.families=[" + families + "]", "--visibility", "off", "--bricks", "off"};
 }
 
 } // namespace hearth::test

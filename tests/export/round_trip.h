@@ -16,9 +16,15 @@ namespace hearth::test
 class RoundTrip
 {
 public:
-    /// source   path of a file
-    /// options  of both cooks
-    RoundTrip(const std::string& source, const std::vector<std::string>& options);
+    /// source          path of a file
+    /// options         of both cooks
+    /// second_options  of the second cook, instead
+    RoundTrip(const std::string& source, const std::vector<std::string>& options)
+        : RoundTrip(source, options, options)
+    {
+    }
+    RoundTrip(const std::string& source, const std::vector<std::string>& options,
+              const std::vector<std::string>& second_options);
 
     /// Return the message of the step that failed; empty: none has.
     const std::string& fault() const { return fault_; }
@@ -42,7 +48,13 @@ private:
     std::unique_ptr<formats::PackView> second_;
 };
 
-/// Options of a cook whose texels are those of the source, without light.
-std::vector<std::string> plainTexels();
+/// Options of a cook without light whose texels have the formats of some families, as "\"astc\"".
+std::vector<std::string> texelsOf(const std::string& families);
+
+/// The same with the texels of the source.
+inline std::vector<std::string> plainTexels()
+{
+    return texelsOf("");
+}
 
 } // namespace hearth::test

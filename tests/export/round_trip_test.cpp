@@ -51,6 +51,28 @@ TEST_P(SampleRoundTrip, keepsTheScene)
 INSTANTIATE_TEST_SUITE_P(All, SampleRoundTrip,
                          ::testing::Values("room", "character", "transforms", "grass", "spheres"));
 
+class LossyRoundTrip : public ::testing::TestWithParam<const char*>
+{
+};
+
+TEST_P(LossyRoundTrip, keepsTexelsWithinTwiceTheStoredError)
+{
+    Sandbox folder;
+    ASSERT_EQ(folder
+                  .run({HEARTH_BIN "/hearth-samples", "rock", "--triangles", "3000", "--texture-size", "128",
+                        "-o", "sample.glb"})
+                  .exit_code,
+              0);
+    const RoundTrip plain(folder / "sample.glb", plainTexels());
+    const RoundTrip lossy(folder / "sample.glb", texelsOf(std::string("\"") + GetParam() + "\""),
+                          plainTexels());
+    ASSERT_EQ(plain.fault() + lossy.fault(), "");
+    expectNone("texels", compareLoss(plain.first(), lossy.first(), lossy.second()));
+    expectNone("triangles", compareTriangles(plain.first(), lossy.second()));
+}
+
+INSTANTIATE_TEST_SUITE_P(Families, LossyRoundTrip, ::testing::Values("astc", "etc2", "bc"));
+
 class ModelRoundTrip : public ::testing::TestWithParam<const char*>
 {
 };
