@@ -58,7 +58,9 @@ DoctorCheck checkPrograms(const std::string& folder)
     std::vector<std::string> others;
     std::vector<std::string_view> names;
     for (const cookers::Cooker& cooker : cookers::allCookers())
-        names.push_back(cooker.name);
+        if (!cooker.has_package_of_its_own ||
+            ::access(fmt::format("{}/hearth-{}", folder, cooker.name).c_str(), X_OK) == 0)
+            names.push_back(cooker.name);
     names.emplace_back("render");
     // it may have been left out of the build: checkImages() says what it is for
     if (::access((folder + kImagesProgram).c_str(), X_OK) == 0)

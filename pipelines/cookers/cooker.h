@@ -40,6 +40,8 @@ enum class Lists : uint8_t
 struct Cooker
 {
     std::string_view name; ///< "clusters": the program is hearth-clusters
+    /// true: it may not be installed with the others, as for its licence
+    bool has_package_of_its_own = false;
     /// source: runs once for each source; pack: runs once for all sources
     settings::Scope scope = settings::Scope::source;
     /// key of the setting that switches the cooker (settings::switchSetting, or a list): it runs unless this
@@ -48,7 +50,7 @@ struct Cooker
     /// values of that setting for which it runs; empty: all but off
     std::vector<std::string_view> runs_for{};
     /// Cookers whose parts it reads, in the order of its command line. A cooker of the pack reads the parts
-    /// of each source.
+    /// of each source. A part that is not made, because its cooker is off, is left out.
     std::vector<std::string_view> reads{};
     /// For a cooker of the pack: earlier ones of the pack whose parts it reads where they run, each after an
     /// option of that name, "--probe"

@@ -60,7 +60,7 @@ Cooker describeProxy()
     return {.name = "proxy",
             .switched_by = "proxy.from",
             .runs_for = {"clean", "wrap"},
-            .reads = {"import", "clusters"},
+            .reads = {"import", "clusters", "wrap"},
             .link_option = "--proxies",
             .has_statistics = true,
             .settings = makeProxySettings(),

@@ -14,6 +14,7 @@ Cooker describeEstimates();
 Cooker describeBudget();
 Cooker describeTexels();
 Cooker describeSkinning();
+Cooker describeWrap();
 Cooker describeProxy();
 Cooker describeNeighbours();
 Cooker describeVisibility();
@@ -33,11 +34,12 @@ using settings::Values;
 
 std::vector<Cooker> makeCookers()
 {
-    std::vector<Cooker> cookers{
-        describeImport(),     describeClusters(),   describeTextures(),    describeEstimates(),
-        describeBudget(),     describeTexels(),     describeSkinning(),    describeProxy(),
-        describeNeighbours(), describeVisibility(), describeSpecular(),    describeProbe(),
-        describeBricks(),     describeReceivers(),  describeReflections(), describeLink()};
+    std::vector<Cooker> cookers{describeImport(),      describeClusters(),   describeTextures(),
+                                describeEstimates(),   describeBudget(),     describeTexels(),
+                                describeSkinning(),    describeWrap(),       describeProxy(),
+                                describeNeighbours(),  describeVisibility(), describeSpecular(),
+                                describeProbe(),       describeBricks(),     describeReceivers(),
+                                describeReflections(), describeLink()};
     for (Cooker& cooker : cookers)
         for (Setting& setting : cooker.settings)
             setting.scope = cooker.scope;

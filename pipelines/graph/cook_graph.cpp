@@ -167,7 +167,8 @@ Status addSource(size_t source, bool is_listed, Draft& draft)
         if (cooker.reads_files)
             HEARTH_TRY(addSourceFiles(draft.settings, source, action));
         for (const std::string_view read : cooker.reads)
-            addInput(action, partInput(draft.graph, actions.at(read)));
+            if (const auto found = actions.find(read); found != actions.end())
+                addInput(action, partInput(draft.graph, found->second));
         if (cooker.makeWordsOfPack != nullptr)
             for (const std::string& word : cooker.makeWordsOfPack(draft.settings.values_of_pack))
                 addWord(action, word);

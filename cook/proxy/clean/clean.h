@@ -6,7 +6,7 @@
 #include "cook/proxy/clean/half_edges.h"
 #include "cook/proxy/clean/holes.h"
 #include "cook/proxy/clean/orientation.h"
-#include "cook/proxy/surface.h"
+#include "cook/proxy/surface/surface.h"
 
 namespace hearth::proxy
 {

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/proxy/surface.h"
+#include "cook/proxy/surface/surface.h"
 
 #include <cstdint>
 

@@ -4,8 +4,8 @@
 #include "cook/json/json.h"
 #include "cook/mesh/source_mesh.h"
 #include "cook/mesh/weld.h"
-#include "cook/proxy/binding.h"
-#include "cook/proxy/cut.h"
+#include "cook/proxy/surface/binding.h"
+#include "cook/proxy/surface/cut.h"
 #include "formats/container/container_writer.h"
 #include "formats/pack/pack_check.h"
 

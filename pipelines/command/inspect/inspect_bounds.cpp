@@ -3,8 +3,8 @@
 
 #include "cook/json/json.h"
 #include "formats/codecs/cluster_bounds.h"
-#include "pipelines/command/inspect/extract.h"
-#include "pipelines/command/inspect/open_pack.h"
+#include "pipelines/command/extract/extract.h"
+#include "pipelines/command/extract/open_pack.h"
 #include "pipelines/export/cut.h"
 #include "pipelines/export/meshes.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "pipelines/command/inspect/posed_mesh.h"
+#include "pipelines/command/extract/posed_mesh.h"
 
 #include <optional>
 #include <string>

@@ -8,7 +8,7 @@
 #include "formats/pack/image_uses.h"
 #include "formats/records/animation_paths.h"
 #include "formats/records/texel_format.h"
-#include "pipelines/command/inspect/extract_texture.h"
+#include "pipelines/command/extract/extract_texture.h"
 #include "pipelines/command/inspect/inspect.h"
 
 #include <fmt/format.h>

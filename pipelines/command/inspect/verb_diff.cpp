@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/extract/open_pack.h"
 #include "pipelines/command/inspect/diff_camera.h"
 #include "pipelines/command/inspect/image_diff.h"
-#include "pipelines/command/inspect/open_pack.h"
 #include "pipelines/command/inspect/pack_diff.h"
 #include "pipelines/command/shell/verb_tools.h"
 #include "pipelines/command/shell/verbs.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/command/extract/open_pack.h"
 #include "pipelines/command/inspect/inspect.h"
 #include "pipelines/command/inspect/inspect_bounds.h"
-#include "pipelines/command/inspect/open_pack.h"
 #include "pipelines/command/shell/verb_tools.h"
 #include "pipelines/command/shell/verbs.h"
 #include "pipelines/command/topology/inspect_topology.h"

@@ -1,7 +1,7 @@
 // Tests the diff of two packs: each entry is matched by name, whatever its place in a table.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
-#include "pipelines/command/inspect/open_pack.h"
+#include "pipelines/command/extract/open_pack.h"
 #include "pipelines/command/inspect/pack_diff.h"
 #include "tests/support/sandbox.h"
 #include "tests/support/small_parts.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/command/inspect/extract.h"
-#include "pipelines/command/inspect/extract_bricks.h"
-#include "pipelines/command/inspect/extract_specular.h"
+#include "pipelines/command/extract/extract.h"
+#include "pipelines/command/extract/extract_bricks.h"
+#include "pipelines/command/extract/extract_specular.h"
 
 #include "formats/gpu_shared/brick_codes.h"
-#include "pipelines/command/inspect/open_pack.h"
+#include "pipelines/command/extract/open_pack.h"
 #include "pipelines/command/inspect/verify.h"
 #include "tests/support/sandbox.h"
 #include "tests/support/small_parts.h"

@@ -2,7 +2,7 @@
 #include "cook/json/json.h"
 #include "pipelines/command/inspect/inspect.h"
 
-#include "pipelines/command/inspect/open_pack.h"
+#include "pipelines/command/extract/open_pack.h"
 #include "pipelines/command/inspect/verify.h"
 #include "pipelines/command/shell/explain.h"
 #include "tests/support/sandbox.h"

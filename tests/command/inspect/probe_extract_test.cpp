@@ -1,7 +1,7 @@
 // Tests `hearth extract --probe` with the decoders that read images of others.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/texels/shared_exponent.h"
-#include "pipelines/command/inspect/extract_probe.h"
+#include "pipelines/command/extract/extract_probe.h"
 #include "pipelines/import/images/decode.h"
 #include "pipelines/import/images/float_image.h"
 #include "tests/support/sandbox.h"

@@ -1,6 +1,6 @@
 // Tests `hearth extract --receivers` with the decoders that read images of others.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/command/inspect/extract_receivers.h"
+#include "pipelines/command/extract/extract_receivers.h"
 #include "pipelines/import/images/decode.h"
 #include "pipelines/import/images/float_image.h"
 #include "tests/support/sandbox.h"

@@ -1,6 +1,6 @@
 // Textures that extract writes as KTX2 have the texels of the pack, by the fields of the specification.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/command/inspect/extract_texture.h"
+#include "pipelines/command/extract/extract_texture.h"
 
 #include "formats/base/half.h"
 #include "formats/pack/decode_image.h"

@@ -1,6 +1,6 @@
 // Tests bindings of vertices, and distances between a mesh and its proxy.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/proxy/binding.h"
+#include "cook/proxy/surface/binding.h"
 #include "formats/base/double3.h"
 #include "tests/cook/proxy/surfaces.h"
 #include "tests/support/shapes.h"

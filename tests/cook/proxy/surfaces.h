@@ -3,7 +3,7 @@
 #pragma once
 
 #include "cook/mesh/source_mesh.h"
-#include "cook/proxy/surface.h"
+#include "cook/proxy/surface/surface.h"
 
 #include <string>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/command/inspect/extract_probe.h"
+#include "pipelines/command/extract/extract_probe.h"
 
 #include "formats/base/atomic_file.h"
 #include "formats/pack/pack_check.h"
-#include "pipelines/command/inspect/open_pack.h"
+#include "pipelines/command/extract/open_pack.h"
 #include "pipelines/light_pictures/probe_picture.h"
 
 #include <fmt/format.h>

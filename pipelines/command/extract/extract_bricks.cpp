@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/command/inspect/extract_bricks.h"
+#include "pipelines/command/extract/extract_bricks.h"
 
 #include "formats/base/atomic_file.h"
 #include "formats/gpu_shared/brick_codes.h"
 #include "formats/pack/for_each_brick.h"
-#include "pipelines/command/inspect/open_pack.h"
+#include "pipelines/command/extract/open_pack.h"
 
 #include <fmt/format.h>
 

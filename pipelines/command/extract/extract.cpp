@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/command/inspect/extract.h"
+#include "pipelines/command/extract/extract.h"
 
 #include "formats/base/atomic_file.h"
-#include "pipelines/command/inspect/open_pack.h"
+#include "pipelines/command/extract/open_pack.h"
 #include "pipelines/export/cut.h"
 #include "pipelines/export/meshes.h"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/command/inspect/extract_texture.h"
+#include "pipelines/command/extract/extract_texture.h"
 
 #include "formats/base/atomic_file.h"
 #include "formats/base/nearest_match.h"
 #include "formats/pack/decode_image.h"
 #include "formats/texels/plain_encoder.h"
 #include "formats/texels/swizzle.h"
-#include "pipelines/command/inspect/open_pack.h"
+#include "pipelines/command/extract/open_pack.h"
 #include "pipelines/texture_files/ktx2_writer.h"
 
 #include <charconv>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/proxy/surface.h"
+#include "cook/proxy/surface/surface.h"
 
 #include "cook/mesh/triangles.h"
 #include "cook/mesh/weld.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/proxy/cut.h"
+#include "cook/proxy/surface/cut.h"
 
 #include <algorithm>
 #include <cmath>

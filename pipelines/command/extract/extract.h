@@ -3,7 +3,7 @@
 #pragma once
 
 #include "formats/pack/pack_view.h"
-#include "pipelines/command/inspect/posed_mesh.h"
+#include "pipelines/command/extract/posed_mesh.h"
 
 #include <optional>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/command/inspect/extract_receivers.h"
+#include "pipelines/command/extract/extract_receivers.h"
 
-#include "pipelines/command/inspect/open_pack.h"
+#include "pipelines/command/extract/open_pack.h"
 #include "pipelines/light_pictures/receiver_picture.h"
 
 namespace hearth::command

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/command/inspect/extract_proxy.h"
+#include "pipelines/command/extract/extract_proxy.h"
 
 #include "formats/base/atomic_file.h"
-#include "formats/pack/pack_check.h"
-#include "pipelines/command/inspect/open_pack.h"
+#include "pipelines/command/extract/open_pack.h"
 
 #include <fmt/format.h>
 
@@ -80,7 +79,6 @@ Status extractProxy(const std::string& path, uint32_t proxy, const std::string& 
     if (!is_obj && !output.ends_with(".ply"))
         return Error{Issue::usage, output, "", "a proxy is written as .ply or .obj"};
     HEARTH_ASSIGN_OR_RETURN(const PackView file, openContainer(path));
-    HEARTH_TRY(checkProxies(file)); // openContainer does not check these chunks of a part
     if (file.proxies().empty())
         return Error{Issue::chunk_missing, path, chunkName(kChunkProxies, 0),
                      "the file has no proxies: cook with --proxy-from clean"};

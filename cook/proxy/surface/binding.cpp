@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/proxy/binding.h"
+#include "cook/proxy/surface/binding.h"
 
 #include "cook/clusters/surface/surface_bound.h"
 #include "cook/mesh/closest_point.h"

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/proxy/cut.h"
-#include "cook/proxy/surface.h"
+#include "cook/proxy/surface/cut.h"
+#include "cook/proxy/surface/surface.h"
 #include "formats/records/proxy.h"
 
 #include <vector>

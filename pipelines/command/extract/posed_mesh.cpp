@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "pipelines/command/inspect/posed_mesh.h"
+#include "pipelines/command/extract/posed_mesh.h"
 
 #include <algorithm>
 #include <charconv>
