@@ -232,6 +232,34 @@ TEST(CookGraph, passesSettingsToEveryCooker)
                                   "{bricks.part}", "-o", "{pack.hearth}"}));
 }
 
+TEST(CookGraph, linksProxiesOfTheSourcesThatHaveThem)
+{
+    CookSettings settings;
+    settings.sources = {"a.obj", "b.obj", "c.obj"};
+    settings.output = "all.hearth";
+    const settings::Values plain{{"visibility.mode", {"\"off\"", ""}}, {"textures.families", {"[]", ""}}};
+    settings.values_of_source.assign(3, plain);
+    settings.values_of_source[1]["proxy.from"] = {"\"clean\"", ""};
+    settings.values_of_source[1]["proxy.error"] = {"0.01", ""};
+    settings.values_of_source[2]["proxy.from"] = {"\"wrap\"", ""};
+    settings.values_of_source[2]["proxy.alpha"] = {"0.1", ""};
+    settings.values_of_pack = {{"bricks.mode", {"\"off\"", ""}}};
+    const std::vector<Words> commands = getCommands(makeCookGraph(settings).value());
+    const auto has = [&](const Words& words) { return std::ranges::find(commands, words) != commands.end(); };
+    EXPECT_TRUE(has({"bin/hearth-proxy", "{import.part}", "{clusters.part}", "-o", "{proxy.part}", "--error",
+                     "0.01", "--stats", "{proxy.json}"}));
+    EXPECT_TRUE(has({"bin/hearth-wrap", "{import.part}", "-o", "{wrap.part}", "--alpha", "0.1", "--stats",
+                     "{wrap.json}"}));
+    EXPECT_TRUE(has({"bin/hearth-proxy", "{import.part}", "{clusters.part}", "{wrap.part}", "-o",
+                     "{proxy.part}", "--stats", "{proxy.json}"}));
+    Words link{"bin/hearth-link"};
+    for (int source = 0; source < 3; ++source)
+        link.insert(link.end(), {"{import.part}", "{clusters.part}", "{textures.part}", "{skinning.part}"});
+    link.insert(link.end(),
+                {"--proxies", "1={proxy.part}", "--proxies", "2={proxy.part}", "-o", "{pack.hearth}"});
+    EXPECT_EQ(commands.back(), link);
+}
+
 TEST(CookGraph, linksPlainTexturesWhereNoFamilyIsWanted)
 {
     CookSettings settings = allSettings();

@@ -82,6 +82,7 @@ protected:
                                                          : settings.values_of_pack)[setting.key] =
                     chooseValue(setting, 0);
         settings.values_of_pack["environment.file"].text = "\"" + sandbox / "sky.hdr" + "\"";
+        settings.values_of_source[0]["proxy.from"].text = "\"wrap\"";
         return settings;
     }
 
@@ -133,9 +134,9 @@ protected:
     Sandbox folder;
 };
 
-const std::set<std::string> kOfSource{"import", "textures",  "estimates",   "budget",
-                                      "texels", "clusters",  "skinning",    "visibility",
-                                      "bricks", "receivers", "reflections", "link"};
+const std::set<std::string> kOfSource{"import",      "textures", "estimates",  "budget", "texels",
+                                      "clusters",    "skinning", "visibility", "bricks", "receivers",
+                                      "reflections", "link",     "wrap",       "proxy"};
 
 } // namespace
 
@@ -184,7 +185,10 @@ TEST_F(Keys, everySettingChangesThoseOfItsCookerAndItsReaders)
     const auto before = keys(settings);
     const std::map<std::string, std::set<std::string>> readers{
         {"import", kOfSource},
-        {"clusters", {"clusters", "skinning", "visibility", "bricks", "receivers", "reflections", "link"}},
+        {"wrap", {"wrap", "proxy", "link"}},
+        {"proxy", {"proxy", "link"}},
+        {"clusters",
+         {"clusters", "skinning", "proxy", "visibility", "bricks", "receivers", "reflections", "link"}},
         {"textures",
          {"textures", "estimates", "budget", "texels", "bricks", "receivers", "reflections", "link"}},
         {"texels", {"estimates", "budget", "texels", "link"}},
@@ -225,8 +229,13 @@ TEST_F(Keys, flagsAddTheirCookers)
     CookSettings other = settings;
     other.values_of_source[0]["visibility.mode"].text = "\"off\"";
     EXPECT_EQ(changed(before, keys(other)),
-              (std::set<std::string>{"clusters", "skinning", "visibility", "specular", "bricks", "receivers",
-                                     "reflections", "link"}));
+              (std::set<std::string>{"clusters", "skinning", "proxy", "visibility", "specular", "bricks",
+                                     "receivers", "reflections", "link"}));
+    other = settings;
+    other.values_of_source[0]["proxy.from"].text = "\"clean\"";
+    EXPECT_EQ(changed(before, keys(other)), (std::set<std::string>{"wrap", "proxy", "link"}));
+    other.values_of_source[0]["proxy.from"].text = "\"source\"";
+    EXPECT_EQ(changed(before, keys(other)), (std::set<std::string>{"wrap", "proxy", "link"}));
     other = settings;
     other.values_of_pack["bricks.mode"].text = "\"off\"";
     EXPECT_EQ(changed(before, keys(other)), (std::set<std::string>{"bricks", "link", "receivers"}));

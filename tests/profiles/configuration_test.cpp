@@ -252,6 +252,8 @@ TEST(Arguments, giveEachCookerItsOwnSettings)
         "visibility.quality = 'draft'\nvisibility.distance = 2\n"
         "visibility.power = 1\nvisibility.poses = ['Run', 'Walk']\n"
         "visibility.refine = true\nvisibility.occluders = 'mesh'\n"
+        "proxy.from = 'wrap'\nproxy.error = 0.01\nproxy.triangles = 500\nproxy.holes = 0.5\n"
+        "proxy.bindings = true\nproxy.alpha = 0.1\nproxy.offset = 0.01\n"
         "bricks.mode = 'on'\nbricks.voxel_size = 0.5\n"
         "bricks.memory = '1M'\nenvironment.file = 'sky.hdr'\n"
         "receivers.mode = 'on'\nreceivers.texels_per_metre = 8\nreceivers.lights = 3\n"
@@ -270,6 +272,9 @@ TEST(Arguments, giveEachCookerItsOwnSettings)
     EXPECT_EQ(wordsFor("visibility", values),
               (Words{"--quality", "draft", "--occluders", "mesh", "--distance", "2", "--power", "1",
                      "--poses", "Run", "--poses", "Walk", "--refine-cones", "--no-noise-estimate"}));
+    EXPECT_EQ(wordsFor("proxy", values),
+              (Words{"--error", "0.01", "--triangles", "500", "--holes", "0.5", "--bindings"}));
+    EXPECT_EQ(wordsFor("wrap", values), (Words{"--alpha", "0.1", "--offset", "0.01"}));
     EXPECT_EQ(wordsFor("bricks", values), (Words{"--voxel-size", "0.5", "--memory", "1048576"}));
     EXPECT_EQ(wordsFor("receivers", values),
               (Words{"--texels-per-metre", "8", "--lights", "3", "--codec", "rgbm", "--bounces", "2"}));
@@ -287,6 +292,12 @@ TEST(Arguments, omitUnsetSettings)
     EXPECT_EQ(wordsFor("clusters", {}), (Words{"--no-discrete-lods", "--visibility"}));
     EXPECT_EQ(wordsFor("bricks", {}), Words{"--if-needed"});
     EXPECT_EQ(wordsFor("receivers", {}), Words());
+    EXPECT_EQ(wordsFor("proxy", {}), Words());
+    const std::vector<settings::Values> plain_source(1), cleaned_source{{{"proxy.from", {"\"clean\"", ""}}}};
+    for (const char* name : {"proxy", "wrap"})
+        EXPECT_FALSE(cookers::isEnabled(*cookers::findCooker(name), {}, plain_source)) << name;
+    EXPECT_TRUE(cookers::isEnabled(*cookers::findCooker("proxy"), {}, cleaned_source));
+    EXPECT_FALSE(cookers::isEnabled(*cookers::findCooker("wrap"), {}, cleaned_source));
     EXPECT_FALSE(cookers::isEnabled(*cookers::findCooker("probe"), {}, {}));
     EXPECT_FALSE(cookers::isEnabled(*cookers::findCooker("receivers"), {}, {}));
     EXPECT_FALSE(cookers::isEnabled(*cookers::findCooker("reflections"), {}, {}));

@@ -160,6 +160,53 @@ TEST_F(CTablesTest, camerasAreReadyForAFrame)
     EXPECT_EQ(camera.z_far, 100);
 }
 
+TEST_F(CTablesTest, proxiesAreTheirArrays)
+{
+    for (uint32_t i = 0; i < model_.proxies.size(); ++i)
+    {
+        const formats::ProxyRecord& record = model_.proxies[i];
+        hearth_proxy proxy = HEARTH_PROXY_INIT;
+        ASSERT_EQ(pack_.getProxy(i, proxy, &message_), HEARTH_OK) << message_;
+        EXPECT_EQ(proxy.struct_size, sizeof(proxy));
+        EXPECT_EQ(proxy.mesh, record.mesh);
+        EXPECT_EQ(proxy.origin, record.origin);
+        EXPECT_EQ(proxy.is_closed, record.is_closed);
+        EXPECT_EQ(proxy.distance, record.distance);
+        EXPECT_EQ(proxy.mesh_distance, record.mesh_distance);
+        ASSERT_EQ(proxy.position_count, record.positions.count);
+        ASSERT_EQ(proxy.index_count, record.indices.count);
+        ASSERT_EQ(proxy.section_count, record.sections.count);
+        ASSERT_EQ(proxy.binding_count, record.bindings.count);
+        for (uint32_t p = 0; p < proxy.position_count; ++p)
+        {
+            const Float3 position = model_.proxy_positions[record.positions.first + p];
+            EXPECT_THAT(std::vector<float>(proxy.positions + 3 * p, proxy.positions + 3 * p + 3),
+                        ElementsAre(position.x, position.y, position.z));
+        }
+        EXPECT_THAT(
+            std::vector<uint32_t>(proxy.indices, proxy.indices + proxy.index_count),
+            ElementsAreArray(model_.proxy_indices.data() + record.indices.first, record.indices.count));
+        for (uint32_t s = 0; s < proxy.section_count; ++s)
+        {
+            const formats::ProxySectionRecord& section = model_.proxy_sections[record.sections.first + s];
+            EXPECT_EQ(proxy.sections[s].first_triangle, section.triangles.first);
+            EXPECT_EQ(proxy.sections[s].triangle_count, section.triangles.count);
+            EXPECT_EQ(proxy.sections[s].material, section.material);
+            EXPECT_EQ(proxy.sections[s].is_convex, section.is_convex);
+        }
+        for (uint32_t b = 0; b < proxy.binding_count; ++b)
+        {
+            const formats::ProxyBindingRecord& binding = model_.proxy_bindings[record.bindings.first + b];
+            EXPECT_EQ(proxy.bindings[b].triangle, binding.triangle);
+            EXPECT_EQ(proxy.bindings[b].weights[0], binding.weights[0]);
+            EXPECT_EQ(proxy.bindings[b].weights[1], binding.weights[1]);
+            EXPECT_EQ(proxy.bindings[b].distance, binding.distance);
+        }
+        EXPECT_EQ(proxy.bindings == nullptr, record.bindings.count == 0);
+    }
+    EXPECT_GT(model_.proxies.size(), 1u);
+}
+
 TEST_F(CTablesTest, whatIsNotThereIsRefused)
 {
     hearth_pack_camera camera = HEARTH_PACK_CAMERA_INIT;
@@ -173,9 +220,13 @@ TEST_F(CTablesTest, whatIsNotThereIsRefused)
     std::string_view name;
     EXPECT_EQ(pack_.getName(HEARTH_TABLE_ANIMATIONS, 1000, name, &message_), HEARTH_ERROR_USAGE);
     EXPECT_THAT(message_, HasSubstr("there is no animation 1000"));
-    EXPECT_EQ(pack_.getName(HEARTH_TABLE_ASSETS + 1, 0, name, &message_), HEARTH_ERROR_USAGE);
-    EXPECT_THAT(message_, HasSubstr("table 10 is not one that this version knows"));
-    EXPECT_EQ(hearth_pack_get_count(pack_.get(), 10, &count, nullptr, 0), HEARTH_ERROR_USAGE);
+    hearth_proxy proxy = HEARTH_PROXY_INIT;
+    EXPECT_EQ(pack_.getProxy(2, proxy, &message_), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(message_, HasSubstr("there is no proxy 2: the pack has 2"));
+    EXPECT_EQ(hearth_pack_get_proxy(pack_.get(), 0, nullptr, nullptr, 0), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(pack_.getName(HEARTH_TABLE_PROXIES + 1, 0, name, &message_), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(message_, HasSubstr("table 11 is not one that this version knows"));
+    EXPECT_EQ(hearth_pack_get_count(pack_.get(), 11, &count, nullptr, 0), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_pack_get_count(pack_.get(), 0, nullptr, nullptr, 0), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_pack_get_count(nullptr, 0, &count, message, sizeof(message)), HEARTH_ERROR_USAGE);
     EXPECT_THAT(message, HasSubstr("pack is NULL"));
