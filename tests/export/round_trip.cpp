@@ -45,7 +45,7 @@ std::unique_ptr<PackView> RoundTrip::open(const std::string& path)
     return view.ok() ? std::make_unique<PackView>(std::move(*view)) : nullptr;
 }
 
-std::vector<std::string> texelsOf(const std::string& families)
+std::vector<std::string> makeOptions(const std::string& families)
 {
     return {"--set", "textures.families=[" + families + "]", "--visibility", "off", "--bricks", "off"};
 }

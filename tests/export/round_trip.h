@@ -49,12 +49,12 @@ private:
 };
 
 /// Options of a cook without light whose texels have the formats of some families, as "\"astc\"".
-std::vector<std::string> texelsOf(const std::string& families);
+std::vector<std::string> makeOptions(const std::string& families);
 
 /// The same with the texels of the source.
 inline std::vector<std::string> plainTexels()
 {
-    return texelsOf("");
+    return makeOptions("");
 }
 
 } // namespace hearth::test

@@ -5,8 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <sstream>
 
 namespace hearth::test
 {
@@ -16,11 +18,33 @@ namespace
 
 using reference::Image;
 
-/// Draw a pack with hearth-render, all of it in the picture.
-Image draw(Sandbox& folder, const std::string& pack)
+/// Return a camera, as hearth-render's option, that has all instances in its picture.
+std::string frameScene(const formats::PackView& pack)
 {
-    const ProgramEnd end = folder.run({HEARTH_BIN "/hearth-render", pack, "-o", "drawn.png", "--size",
-                                       "320x240", "--samples", "1", "--fit"});
+    Box3 box;
+    for (const formats::InstanceRecord& instance : pack.instances())
+        for (int corner = 0; corner < 8; ++corner)
+        {
+            const formats::MeshRecord& mesh = pack.meshes()[instance.mesh];
+            box.add(transformPoint(instance.world_from_object,
+                                   {(corner & 1) != 0 ? mesh.box_max.x : mesh.box_min.x,
+                                    (corner & 2) != 0 ? mesh.box_max.y : mesh.box_min.y,
+                                    (corner & 4) != 0 ? mesh.box_max.z : mesh.box_min.z}));
+        }
+    const Float3 center = (box.min + box.max) * 0.5f, size = box.max - box.min;
+    const float distance = std::sqrt(dot(size, size)) * 1.2f;
+    std::ostringstream camera;
+    camera << center.x + distance * 0.6f << ',' << center.y + distance * 0.3f << ','
+           << center.z + distance * 0.74f << ',' << center.x << ',' << center.y << ',' << center.z << ",45";
+    return camera.str();
+}
+
+/// Draw the finest triangles of a pack with hearth-render.
+Image draw(Sandbox& folder, const std::string& pack, const std::string& camera)
+{
+    const ProgramEnd end =
+        folder.run({HEARTH_BIN "/hearth-render", pack, "-o", "drawn.png", "--size", "320x240", "--samples",
+                    "1", "--camera", camera, "--error-pixels", "0"});
     EXPECT_EQ(end.exit_code, 0) << end.err;
     auto image = reference::readPng(folder / "drawn.png");
     EXPECT_TRUE(image.ok());
@@ -33,7 +57,9 @@ void expectSamePicture(const std::string& source, const std::string& name)
     const RoundTrip trip(source, plainTexels());
     ASSERT_EQ(trip.fault(), "") << name;
     Sandbox folder;
-    const Image first = draw(folder, trip.firstPath()), second = draw(folder, trip.secondPath());
+    const std::string camera = frameScene(trip.first());
+    const Image first = draw(folder, trip.firstPath(), camera),
+                second = draw(folder, trip.secondPath(), camera);
     const double difference = reference::flip(first, second).mean();
     std::printf("%-24s FLIP %.5f\n", name.c_str(), difference);
     EXPECT_LE(difference, kMaxFlip) << name;

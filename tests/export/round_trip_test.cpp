@@ -64,7 +64,7 @@ TEST_P(LossyRoundTrip, keepsTexelsWithinTwiceTheStoredError)
                   .exit_code,
               0);
     const RoundTrip plain(folder / "sample.glb", plainTexels());
-    const RoundTrip lossy(folder / "sample.glb", texelsOf(std::string("\"") + GetParam() + "\""),
+    const RoundTrip lossy(folder / "sample.glb", makeOptions(std::string("\"") + GetParam() + "\""),
                           plainTexels());
     ASSERT_EQ(plain.fault() + lossy.fault(), "");
     expectNone("texels", compareLoss(plain.first(), lossy.first(), lossy.second()));
