@@ -67,6 +67,11 @@ TEST_F(CommandLine, saysWhatIsMissingOrOutOfRange)
     expectUsageError({"extract", "a", "--mesh", "0", "--error", "nan", "-o", "b"}, "--error");
     expectUsageError({"extract", "a", "-o", "b"}, "--mesh");
     expectUsageError({"extract", "a", "--mesh", "0", "-o", "b"}, "--error");
+    expectUsageError({"extract", "a", "--error", "0", "-o", "b"}, "--mesh");
+    expectUsageError({"extract", "a", "--error", "-1", "-o", "b.glb"}, "--error");
+    expectUsageError({"extract", "a", "--lods", "--mesh", "0", "--error", "0", "-o", "b.ply"}, ".glb");
+    expectUsageError({"extract", "a", "--texture", "0", "-o", "b.glb"}, "a .glb holds meshes");
+    expectUsageError({"extract", "a", "--mesh", "0", "--animation", "walk", "-o", "b.glb"}, "all clips");
     expectUsageError({"extract", "a", "--part", "cone", "-o", "b"}, "--part");
     expectUsageError({"extract", "a", "--part", "specular", "--mesh", "0", "--error", "0", "-o", "b"},
                      "excludes");
