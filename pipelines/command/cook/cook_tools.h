@@ -3,6 +3,7 @@
 #pragma once
 
 #include "pipelines/command/shell/messages.h"
+#include "pipelines/command/shell/run_programs.h"
 #include "pipelines/command/shell/terminal.h"
 #include "pipelines/graph/executor.h"
 
@@ -12,8 +13,6 @@
 
 namespace hearth::command
 {
-
-inline constexpr int kInterrupted = 130;
 
 /// Print a child's messages: errors always, warnings unless quiet, all others only with Verbosity::all.
 void printMessages(const std::vector<std::string>& lines, Verbosity verbosity);

@@ -6,13 +6,6 @@
 namespace hearth::command
 {
 
-namespace
-{
-
-constexpr int kInterrupted = 130;
-
-} // namespace
-
 std::optional<graph::Failure> runPrograms(const std::vector<Program>& programs)
 {
     tools::ChildProcesses children;

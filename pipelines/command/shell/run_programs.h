@@ -19,6 +19,8 @@ struct Program
     std::vector<std::string> arguments;
 };
 
+inline constexpr int kInterrupted = 130; ///< exit code after a signal
+
 /// Run programs. The first that fails ends the others, and so does a signal.
 std::optional<graph::Failure> runPrograms(const std::vector<Program>& programs);
 

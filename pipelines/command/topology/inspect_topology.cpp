@@ -119,8 +119,10 @@ int inspectTopology(const TopologyOptions& options)
             return failure->exit_code;
         }
     }
-    const Result<TopologyReport> report =
-        makeReport(part, options, findSelfIntersections(part, folder->path(), options.source));
+    const SelfIntersectionCheck check = findSelfIntersections(part, folder->path(), options.source);
+    if (check.is_interrupted)
+        return kInterrupted;
+    const Result<TopologyReport> report = makeReport(part, options, check);
     if (!report.ok())
         return printError(report.error());
     if (!options.ply.empty())

@@ -27,25 +27,33 @@ SelfIntersections readMesh(const Json& json)
 SelfIntersectionCheck findSelfIntersections(const std::string& part, const std::string& folder,
                                             const std::string& subject)
 {
+    SelfIntersectionCheck check;
     std::error_code error;
     if (!std::filesystem::exists(tools::programFolder() + "/hearth-wrap", error))
-        return {"hearth-wrap is not installed", {}};
+    {
+        check.not_checked = "hearth-wrap is not installed";
+        return check;
+    }
     const std::string output = folder + "/intersections.json";
     if (const auto failure = runPrograms({{"wrap", subject, {part, "--self-intersections", output}}}))
-        return {failure->error, {}};
-    SelfIntersectionCheck check;
+    {
+        check.not_checked = failure->error;
+        check.is_interrupted = failure->exit_code == kInterrupted;
+        return check;
+    }
     const Result<std::string> text = readFile(output);
     const std::optional<Json> json = text.ok() ? Json::parse(*text) : std::nullopt;
     try
     {
         if (!json)
-            return {"hearth-wrap wrote no JSON", {}};
-        for (const Json& mesh : (*json)["meshes"])
-            check.meshes[mesh["mesh"].get<uint32_t>()] = readMesh(mesh);
+            check.not_checked = "hearth-wrap wrote no JSON";
+        else
+            for (const Json& mesh : (*json)["meshes"])
+                check.meshes[mesh["mesh"].get<uint32_t>()] = readMesh(mesh);
     }
-    catch (const JsonError& e)
+    catch (const JsonError& wrong)
     {
-        return {std::string("hearth-wrap wrote other JSON than expected: ") + e.what(), {}};
+        check.not_checked = std::string("hearth-wrap wrote other JSON than expected: ") + wrong.what();
     }
     return check;
 }

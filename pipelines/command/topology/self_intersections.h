@@ -13,6 +13,7 @@ namespace hearth::command
 struct SelfIntersectionCheck
 {
     std::string not_checked;                      ///< why nothing was checked; empty if it was
+    bool is_interrupted = false;                  ///< a signal asks this process to end
     std::map<uint32_t, SelfIntersections> meshes; ///< by mesh, those that were checked
 };
 

@@ -9,9 +9,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <map>
+#include <thread>
 
 namespace hearth::test
 {
@@ -250,6 +253,18 @@ TEST_F(InspectTopology, goesOnWhereHearthWrapFails)
         EXPECT_THAT(end.out, HasSubstr("self-intersections were not checked: "));
         EXPECT_THAT(end.out, HasSubstr(reason));
     }
+}
+
+TEST_F(InspectTopology, endsWithHearthWrapWhereItIsInterrupted)
+{
+    programs.write("hearth-wrap", "#!/bin/sh\n: > " + (folder / "started") + "\nexec sleep 60\n", true);
+    const pid_t process = folder.start({programs / "hearth", "inspect", "open.obj", "--topology"});
+    while (!folder.has("started"))
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    ::kill(process, SIGTERM);
+    const ProgramEnd end = folder.finish(process);
+    EXPECT_EQ(end.exit_code, 130);
+    EXPECT_EQ(end.out, "");
 }
 
 TEST_F(InspectTopology, writesNoGeometryToAFolderThatIsNotThere)
