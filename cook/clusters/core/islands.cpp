@@ -6,7 +6,6 @@
 #include "formats/base/assert.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace hearth::clusters
 {
