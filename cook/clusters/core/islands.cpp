@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/clusters/core/islands.h"
 
-#include "cook/mesh/disjoint_sets.h"
-
 #include "formats/base/assert.h"
+#include "formats/base/disjoint_sets.h"
 
 #include <algorithm>
 
@@ -23,7 +22,7 @@ template <IndexType Id>
 IdVector<TriangleId, Id> islandOfTriangles(const CornerVector<Id>& corners, size_t limit)
 {
     HEARTH_RUNTIME_ASSERT(allBelow(corners, limit));
-    mesh::DisjointSets sets(limit);
+    DisjointSets sets(limit);
     for (const TriangleId triangle : corners.triangles())
     {
         const auto [a, b, c] = corners.triangle(triangle);

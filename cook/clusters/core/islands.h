@@ -3,7 +3,6 @@
 #pragma once
 
 #include "cook/clusters/core/index_types.h"
-#include "formats/base/disjoint_sets.h"
 #include "formats/base/math.h"
 
 #include <cstdint>

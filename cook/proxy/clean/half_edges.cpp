@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/proxy/clean/half_edges.h"
 
-#include "cook/mesh/disjoint_sets.h"
+#include "formats/base/disjoint_sets.h"
 #include "formats/base/double3.h"
 #include "formats/base/index.h"
 
@@ -216,7 +216,7 @@ ManifoldStatistics splitNonManifold(Surface& surface)
                 [&](std::span<const EdgeUse> edge) { statistics.split_edges += isComplex(edge) ? 1 : 0; });
 
     const std::vector<uint32_t> joined = joinHalfEdges(surface);
-    mesh::DisjointSets fans(surface.indices.size());
+    DisjointSets fans(surface.indices.size());
     for (uint32_t h = 0; h < joined.size(); ++h)
         if (joined[h] != kInvalidIndex)
             fans.unite(h, nextHalfEdge(joined[h]));

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/proxy/clean/holes.h"
 
-#include "cook/mesh/disjoint_sets.h"
 #include "formats/base/assert.h"
+#include "formats/base/disjoint_sets.h"
 #include "formats/base/double3.h"
 #include "formats/base/index.h"
 
@@ -166,7 +166,7 @@ public:
     double at(uint32_t vertex) { return areas_[pieces_.find(vertex)]; }
 
 private:
-    mesh::DisjointSets pieces_;
+    DisjointSets pieces_;
     std::vector<double> areas_;
 };
 
