@@ -131,8 +131,11 @@ void addFan(const Polygon& polygon, TriangleId near, TriangleId cut_by, std::vec
 /// Cut a piece along the border of the triangle that it lies over, perpendicular to that triangle's plane. On
 /// a plane this yields the common refinement of both surfaces, where halves would never lie over one triangle
 /// alone.
-void cutAlong(const Piece& piece, const Corners3& border, std::vector<Piece>& pieces)
+/// returns  false, and appends nothing, if the border does not cross the piece: between two triangles that are
+///          equally near, such cuts would go on without end
+bool cutAlong(const Piece& piece, const Corners3& border, std::vector<Piece>& pieces)
 {
+    const size_t first = pieces.size();
     Polygon inside(piece.corners.begin(), piece.corners.end());
     Polygon outside;
     Polygon rest;
@@ -146,6 +149,10 @@ void cutAlong(const Piece& piece, const Corners3& border, std::vector<Piece>& pi
         inside.swap(rest);
     }
     addFan(inside, piece.near, piece.near, pieces);
+    if (pieces.size() > first + 1)
+        return true;
+    pieces.resize(first);
+    return false;
 }
 
 /// True if cutting along a triangle gains more than halving.
@@ -184,9 +191,7 @@ TriangleBound boundTriangle(const Corners3& triangle, const SurfaceTree& other, 
             found.upper = std::max(found.upper, upper);
             found.loose_pieces += done ? 0 : 1;
         }
-        else if (worthCutting(piece, radius, near))
-            cutAlong(piece, near, open);
-        else
+        else if (!worthCutting(piece, radius, near) || !cutAlong(piece, near, open))
             halve(piece, open);
     }
     return found;

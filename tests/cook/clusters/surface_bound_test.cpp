@@ -163,4 +163,21 @@ TEST(SurfaceTree, measuresNeedlesAndPoints)
     EXPECT_DOUBLE_EQ(clusters::distance2({1, 1, 3}, point), 4);
 }
 
+TEST(SurfaceBound, endsBetweenTwoTrianglesThatAreNearlyAsNear)
+{
+    // cuts along the border of one and of the other, neither of which crosses a piece, took turns without end
+    SourceMesh a, b;
+    a.positions = {{0.0846862793f, -0.0545043945f, 0.161590576f},
+                   {0.0935058594f, -0.0508728027f, 0.179046631f},
+                   {0.0843200684f, -0.0507507324f, 0.179382324f}};
+    b.positions = {
+        {0.0846821219f, -0.054502029f, 0.16157569f},   {0.0784514099f, -0.0521856584f, 0.165604174f},
+        {0.077847138f, -0.0234357435f, 0.167034283f},  {0.0788139701f, -0.0218914952f, 0.178945169f},
+        {0.0782499835f, -0.0500438735f, 0.175776094f}, {0.0843262747f, -0.0507555678f, 0.179374874f}};
+    a.indices = {0, 1, 2};
+    b.indices = {0, 1, 2, 3, 4, 5};
+    EXPECT_EQ(boundSurfaces(MeshSurface(a), MeshSurface(b), 0).loose_pieces, 0u);
+    expectTight(a, b);
+}
+
 } // namespace
