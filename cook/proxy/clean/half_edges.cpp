@@ -16,6 +16,9 @@ namespace hearth::proxy
 namespace
 {
 
+// Uses of an edge whose flattest pairs are looked for: all pairs are tried.
+constexpr size_t kMaxFlattened = 64;
+
 /// Half-edge with its undirected edge.
 struct EdgeUse
 {
@@ -63,8 +66,15 @@ double pseudoAngle(double x, double y)
     return x < 0 ? 2 - y / sum : 4 + y / sum;
 }
 
-/// Sort the uses of an edge by the angle of their triangles around it, counterclockwise seen from its end.
-std::vector<EdgeUse> sortAroundEdge(const Surface& surface, std::span<const EdgeUse> uses)
+/// Use of an edge with the angle of its triangle around the edge.
+struct AngledUse
+{
+    double angle; ///< as pseudoAngle: opposite sides differ by 2
+    EdgeUse use;
+};
+
+/// Sort the uses of an edge counterclockwise around it, seen from its end.
+std::vector<AngledUse> sortAroundEdge(const Surface& surface, std::span<const EdgeUse> uses)
 {
     const Double3 from = widen(surface.positions[uses[0].ends >> 32]);
     const Double3 axis = widen(surface.positions[uses[0].ends & 0xFFFFFFFFu]) - from;
@@ -76,18 +86,58 @@ std::vector<EdgeUse> sortAroundEdge(const Surface& surface, std::span<const Edge
     const Double3 y = cross(axis, findSide(uses[0])); // a quarter turn after the first triangle
     const Double3 x = cross(y, axis);
     const double to_x = length(x), to_y = length(y);
-    std::vector<std::pair<double, EdgeUse>> by_angle;
+    std::vector<AngledUse> sorted;
     for (const EdgeUse& use : uses)
     {
         const Double3 side = findSide(use);
-        by_angle.emplace_back(pseudoAngle(dot(side, x) * to_y, dot(side, y) * to_x), use);
+        sorted.push_back({pseudoAngle(dot(side, x) * to_y, dot(side, y) * to_x), use});
     }
-    std::stable_sort(by_angle.begin(), by_angle.end(),
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
-    std::vector<EdgeUse> sorted;
-    for (const auto& [angle, use] : by_angle)
-        sorted.push_back(use);
+    std::stable_sort(sorted.begin(), sorted.end(),
+                     [](const AngledUse& a, const AngledUse& b) { return a.angle < b.angle; });
     return sorted;
+}
+
+using UsePair = std::pair<EdgeUse, EdgeUse>;
+
+/// Pair neighbours around an edge whose backs face each other.
+std::vector<UsePair> pairSolids(std::span<const AngledUse> around)
+{
+    // a triangle that descends has its back at larger angles, one that ascends at smaller ones
+    std::vector<UsePair> pairs;
+    for (size_t i = 0; i < around.size(); ++i)
+    {
+        const EdgeUse& next = around[(i + 1) % around.size()].use;
+        if (!around[i].use.ascends && next.ascends)
+            pairs.emplace_back(around[i].use, next);
+    }
+    return pairs;
+}
+
+/// Pair triangles that pass an edge in opposite directions, those first that are closest to one plane.
+std::vector<UsePair> pairFlattest(std::span<const AngledUse> around)
+{
+    struct Candidate
+    {
+        double bend;
+        size_t descending, ascending;
+    };
+    std::vector<Candidate> candidates;
+    for (size_t d = 0; d < around.size(); ++d)
+        for (size_t a = 0; a < around.size(); ++a)
+            if (!around[d].use.ascends && around[a].use.ascends)
+                candidates.push_back({std::abs(std::abs(around[a].angle - around[d].angle) - 2), d, a});
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [](const Candidate& a, const Candidate& b) { return a.bend < b.bend; });
+    std::vector<bool> is_paired(around.size(), false);
+    std::vector<UsePair> pairs;
+    for (const Candidate& candidate : candidates)
+    {
+        if (is_paired[candidate.descending] || is_paired[candidate.ascending])
+            continue;
+        is_paired[candidate.descending] = is_paired[candidate.ascending] = true;
+        pairs.emplace_back(around[candidate.descending].use, around[candidate.ascending].use);
+    }
+    return pairs;
 }
 
 /// Edge of a manifold: one half-edge, or two that are joined.
@@ -193,14 +243,12 @@ std::vector<uint32_t> joinHalfEdges(const Surface& surface)
             return join(uses[0], uses[1]);
         if (uses.size() < 3)
             return;
-        // a triangle that descends has its back at larger angles, one that ascends at smaller ones
-        const std::vector<EdgeUse> around = sortAroundEdge(surface, uses);
-        for (size_t i = 0; i < around.size(); ++i)
-        {
-            const EdgeUse& next = around[(i + 1) % around.size()];
-            if (!around[i].ascends && next.ascends)
-                join(around[i], next);
-        }
+        const std::vector<AngledUse> around = sortAroundEdge(surface, uses);
+        std::vector<UsePair> pairs = pairSolids(around);
+        if (2 * pairs.size() < around.size() && around.size() <= kMaxFlattened)
+            pairs = pairFlattest(around);
+        for (const auto& [a, b] : pairs)
+            join(a, b);
     };
     const std::vector<EdgeUse> uses = sortEdgeUses(surface.indices);
     forEachEdge(uses, joinEdge);

@@ -13,8 +13,8 @@ namespace hearth::proxy
 
 /// Find the half-edge that each half-edge is joined with, or kInvalidIndex at a boundary. Two triangles at an
 /// edge are joined if they pass it in opposite directions. More than two are joined in pairs that bound the same
-/// solid: neighbours around the edge whose backs face each other. So two boxes that share an edge stay two closed
-/// boxes, and a wall on a floor is taken off the floor.
+/// solid, neighbours around the edge whose backs face each other, if that joins them all: two boxes that share an
+/// edge stay two closed boxes. If it does not, the flattest pairs are joined: a wall is taken off the floor.
 std::vector<uint32_t> joinHalfEdges(const Surface& surface);
 
 struct ManifoldStatistics

@@ -23,6 +23,11 @@ using namespace formats;
 namespace
 {
 
+// Shares of the diagonal below which distances need not be told apart. A cleaned proxy lies on its mesh for the most
+// part, a wrap everywhere off it.
+constexpr double kEnoughCleaned = 1e-4;
+constexpr double kEnoughWrapped = 5e-3;
+
 /// Proxy of one mesh.
 struct MadeProxy
 {
@@ -126,7 +131,8 @@ private:
     Status measure(uint32_t mesh, MadeProxy& made) const
     {
         HEARTH_ASSIGN_OR_RETURN(const Surface source, readSurface(import_, mesh));
-        const Distances distances = boundDistances(source, made.surface);
+        const Distances distances =
+            boundDistances(source, made.surface, wrap_ != nullptr ? kEnoughWrapped : kEnoughCleaned);
         made.statistics.distance = distances.of_proxy;
         made.statistics.mesh_distance = distances.of_mesh;
         if (!settings_.binds_vertices)

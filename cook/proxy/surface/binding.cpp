@@ -20,9 +20,6 @@ namespace
 // A point that faces away is taken where one that faces the normal's way is this many times as far.
 constexpr double kMuchCloser = 8;
 
-// Share of the diagonal below which distances need not be told apart.
-constexpr double kEnough = 1e-4;
-
 /// Round barycentric weights to sixteen bits, so that they sum to one at most.
 std::array<uint16_t, 2> codeWeights(float u, float v)
 {
@@ -84,11 +81,10 @@ std::vector<formats::ProxyBindingRecord> bindVertices(const FinestVertices& vert
     return bindings;
 }
 
-Distances boundDistances(const Surface& mesh, const Surface& proxy)
+Distances boundDistances(const Surface& mesh, const Surface& proxy, double enough)
 {
-    const double enough = double{findDiagonal(mesh)} * kEnough;
-    const clusters::SurfaceBounds bounds =
-        clusters::boundSurfaceSides(BoundedSurface(proxy), BoundedSurface(mesh), enough);
+    const clusters::SurfaceBounds bounds = clusters::boundSurfaceSides(
+        BoundedSurface(proxy), BoundedSurface(mesh), enough * double{findDiagonal(mesh)});
     return {roundUp(bounds.a.upper), roundUp(bounds.b.upper)};
 }
 

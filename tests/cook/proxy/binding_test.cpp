@@ -64,7 +64,7 @@ TEST(ProxyDistances, areBoundsOfBothSides)
     Surface mesh = toSurface(shapes::rock(16, 0.2f));
     const Surface proxy = mesh;
     append(mesh, makeBox({2.5f, 0, 0}, {2.6f, 0.1f, 0.1f})); // a part that the proxy lacks
-    const proxy::Distances distances = boundDistances(mesh, proxy);
+    const proxy::Distances distances = boundDistances(mesh, proxy, 1e-4);
     const DistanceBounds of_mesh =
         certifyOneSided(mesh.positions, mesh.indices, SurfaceDistance(proxy.positions, proxy.indices), {});
     EXPECT_GE(double{distances.of_mesh}, of_mesh.lower);
