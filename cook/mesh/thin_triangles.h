@@ -1,5 +1,5 @@
-// Removes thin triangles (slivers) by edge collapse, edge flip or deletion: they break fits on the mesh, and are
-// of no use for collision.
+// Removes thin triangles (slivers) by edge collapse, edge flip or deletion: they break fits on the mesh, and
+// are of no use for collision.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

@@ -1,5 +1,5 @@
-// Chunks of proxies: simple meshes that stand for others, as collision meshes, occluders or shadow casters. See
-// FORMAT.md, "Proxies".
+// Chunks of proxies: simple meshes that stand for others, for collision and as occluders. See FORMAT.md,
+// "Proxies".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

@@ -73,8 +73,8 @@ struct Cooker
     bool is_linked = true;
     /// cooker whose chunks its part contains too: where it runs, only its own part is linked; empty: none
     std::string_view replaces{};
-    /// option of hearth-link before the part of a cooker of the pack; and of one of sources that need not run,
-    /// whose part has the source's number before it, "0="
+    /// option of hearth-link before the part of a cooker of the pack; and of one of sources that need not
+    /// run, whose part has the source's number before it, "0="
     std::string_view link_option{};
     std::string_view extension = ".part"; ///< of its output's name
     bool has_statistics = false;          ///< true: with --stats it writes JSON about its work, for reports

@@ -1,5 +1,5 @@
-// hearth-link: merges import, clusters, textures and skinning parts into a pack, with proxies, a table of specular
-// occlusion, light probes, a grid of bricks and receivers.
+// hearth-link: merges import, clusters, textures and skinning parts into a pack, with proxies, a table of
+// specular occlusion, light probes, a grid of bricks and receivers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
 #include "formats/base/program.h"

@@ -90,7 +90,7 @@ const std::vector<Layer>& layers()
          {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/mesh", "cook/clusters/core",
           "cook/clusters/levels"}},
 
-        {"cook/proxy/surface", {"formats", "cook/mesh", "cook/clusters/core", "cook/clusters/surface"}},
+        {"cook/proxy/surface", {"formats", "cook/mesh", "cook/clusters/surface"}},
         {"cook/proxy/clean",
          {"formats", "cook/mesh", "cook/sampling", "cook/ray_scene", "cook/proxy/surface"}},
         {"cook/proxy/program",
@@ -123,7 +123,7 @@ const std::vector<Layer>& layers()
         {"cook/visibility/rays", {"formats", "cook/sampling", "cook/visibility/mesh"}},
         {"cook/visibility/light",
          {"formats", "cook/sampling", "cook/visibility/mesh", "cook/visibility/rays"}},
-        {"cook/visibility/fit", {"formats", "cook/visibility/mesh", "cook/visibility/rays"}},
+        {"cook/visibility/fit", {"formats", "cook/mesh", "cook/visibility/mesh", "cook/visibility/rays"}},
         {"cook/visibility/scene", {"formats", "cook/mesh", "cook/visibility/rays", "cook/visibility/fit"}},
         {"cook/visibility/program",
          {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/mesh", "cook/pages",

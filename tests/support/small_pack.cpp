@@ -303,8 +303,8 @@ void addReceivers(PackModel& pack)
     pack.receiver_atlases = {{6, 4, 0, 0.5f, 3, 2, 2, 10, 3, {1, 0, 0, 1}, {}}};
 }
 
-/// Two proxies: a closed tetrahedron of two sections for the strip, with bindings; an open triangle for the last
-/// mesh, without.
+/// Two proxies: a closed tetrahedron of two sections for the strip, with bindings; an open triangle for
+/// the last mesh, without.
 void addProxies(PackModel& pack)
 {
     uint32_t vertices = 0;

@@ -128,11 +128,11 @@ void addFan(const Polygon& polygon, TriangleId near, TriangleId cut_by, std::vec
         pieces.push_back({{polygon[0], polygon[i - 1], polygon[i]}, near, cut_by});
 }
 
-/// Cut a piece along the border of the triangle that it lies over, perpendicular to that triangle's plane. On
-/// a plane this yields the common refinement of both surfaces, where halves would never lie over one triangle
-/// alone.
-/// returns  false, and appends nothing, if the border does not cross the piece: between two triangles that are
-///          equally near, such cuts would go on without end
+/// Cut a piece along the border of the triangle that it lies over, perpendicular to that triangle's
+/// plane. On a plane this yields the common refinement of both surfaces, where halves would never lie
+/// over one triangle alone.
+/// returns  false, and appends nothing, if the border does not cross the piece: between two triangles that
+///          are nearly as near, such cuts would go on without end
 bool cutAlong(const Piece& piece, const Corners3& border, std::vector<Piece>& pieces)
 {
     const size_t first = pieces.size();

@@ -27,9 +27,10 @@ struct CleanStatistics
     HoleStatistics holes;
 };
 
-/// Clean a surface: remove thin and doubled triangles, turn triangles and shells, take apart what is no manifold,
-/// fill small holes. Afterwards each edge has one triangle, or two that pass it in opposite directions, each vertex
-/// one fan of triangles, and each position a triangle. Deterministic on processors of one class. Time O(n log n).
+/// Clean a surface: remove thin and doubled triangles, turn triangles and shells, take apart what is no
+/// manifold, fill small holes. Afterwards each edge has one triangle, or two that pass it in opposite
+/// directions, each vertex one fan of triangles, and each position a triangle. Deterministic on
+/// processors of one class. Time O(n log n).
 CleanStatistics cleanSurface(Surface& surface, const CleanSettings& settings = {});
 
 } // namespace hearth::proxy

@@ -1,5 +1,5 @@
-// Joins the triangles of any surface at their edges, so that it becomes a manifold: what cannot be joined is taken
-// apart.
+// Joins the triangles of any surface at their edges, so that it becomes a manifold: what cannot be joined is
+// taken apart.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -11,10 +11,11 @@
 namespace hearth::proxy
 {
 
-/// Find the half-edge that each half-edge is joined with, or kInvalidIndex at a boundary. Two triangles at an
-/// edge are joined if they pass it in opposite directions. More than two are joined in pairs that bound the same
-/// solid, neighbours around the edge whose backs face each other, if that joins them all: two boxes that share an
-/// edge stay two closed boxes. If it does not, the flattest pairs are joined: a wall is taken off the floor.
+/// Find the half-edge that each half-edge is joined with, or kInvalidIndex at a boundary. Two triangles
+/// at an edge are joined if they pass it in opposite directions. More than two are joined in pairs that
+/// bound the same solid, neighbours around the edge whose backs face each other, if that joins them all:
+/// two boxes that share an edge stay two closed boxes. If it does not, the flattest pairs are joined: a
+/// wall is taken off the floor.
 std::vector<uint32_t> joinHalfEdges(const Surface& surface);
 
 struct ManifoldStatistics

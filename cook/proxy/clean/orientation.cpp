@@ -28,8 +28,8 @@ constexpr size_t kMaxRays = size_t{1} << 22;
 constexpr uint32_t kRaysOfSide = 16;
 constexpr size_t kMinPoints = 2, kMaxPoints = 64;
 
-// A shell is turned if rays from its back leave the mesh this many times as often as those from its front, and by
-// this share of all.
+// A shell is turned if rays from its back leave the mesh this many times as often as those from its
+// front, and by this share of all.
 constexpr double kClearlyMore = 2;
 constexpr double kClearShare = 0.02;
 

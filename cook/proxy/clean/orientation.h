@@ -17,10 +17,10 @@ struct OrientationStatistics
     uint32_t twisted_edges = 0;     ///< edges of shells that have no two sides, as a Moebius strip
 };
 
-/// Turn triangles so that the two at an edge pass it in opposite directions, wherever their shell has two sides.
-/// Shells that are closed, and open ones whose triangles did not agree, face the side from which more rays leave
-/// the mesh; where rays do not tell, and for all other shells, the greater part of the area stays as it was.
-/// Deterministic on processors of one class.
+/// Turn triangles so that the two at an edge pass it in opposite directions, wherever their shell has two
+/// sides. Shells that are closed, and open ones whose triangles did not agree, face the side from which
+/// more rays leave the mesh; where rays do not tell, and for all other shells, the greater part of the
+/// area stays as it was. Deterministic on processors of one class.
 OrientationStatistics orientShells(Surface& surface);
 
 } // namespace hearth::proxy

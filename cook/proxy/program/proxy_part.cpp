@@ -23,8 +23,8 @@ using namespace formats;
 namespace
 {
 
-// Shares of the diagonal below which distances need not be told apart. A cleaned proxy lies on its mesh for the most
-// part, a wrap everywhere off it.
+// Shares of the diagonal below which distances need not be told apart. A cleaned proxy lies on its mesh
+// for the most part, a wrap everywhere off it.
 constexpr double kEnoughCleaned = 1e-4;
 constexpr double kEnoughWrapped = 5e-3;
 

@@ -37,14 +37,15 @@ struct MeshStatistics
     CleanStatistics clean;   ///< of proxies that are cleaned
 };
 
-/// Write proxies of all meshes with area. The result depends neither on the number of threads nor, on processors of
-/// one class, on the machine.
+/// Write proxies of all meshes with area. The result depends neither on the number of threads nor, on
+/// processors of one class, on the machine.
 ///
 /// import_part    meshes, and the proxies that artists made, which are kept
 /// clusters_part  of the same source
-/// wrap_part      closed surfaces around the meshes, which become their proxies; null: proxies are cleaned cuts
-/// errors: container_kind; those of checkHierarchy; meaning_reference where the parts are of different sources;
-/// cannot_write
+/// wrap_part      closed surfaces around the meshes, which become their proxies; null: proxies are cleaned
+///                cuts
+/// errors: container_kind; those of checkHierarchy; meaning_reference where the parts are of different
+/// sources; cannot_write
 Result<std::vector<MeshStatistics>> writeProxyPart(const formats::PackView& import_part,
                                                    const formats::PackView& clusters_part,
                                                    const formats::PackView* wrap_part,

@@ -23,8 +23,9 @@ struct Distances
     float of_mesh = 0;  ///< no point of the mesh is farther from the proxy
 };
 
-/// Bound the distances of two surfaces, with at least one triangle each: each is at most 1.1 times the true one, or
-/// `enough` of the mesh's diagonal. Surfaces that are apart everywhere take time with the inverse square of it.
+/// Bound the distances of two surfaces, with at least one triangle each: each is at most 1.1 times the
+/// true one, or `enough` of the mesh's diagonal. Surfaces that are apart everywhere take time with the
+/// inverse square of it.
 Distances boundDistances(const Surface& mesh, const Surface& proxy, double enough);
 
 } // namespace hearth::proxy

@@ -1,4 +1,4 @@
-// Reads cuts of a mesh's cluster hierarchy as surfaces: the builder's levels of detail are what decimates a proxy.
+// Reads cuts of a mesh's cluster hierarchy as surfaces: the builder's levels of detail decimate a proxy.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -10,8 +10,8 @@
 namespace hearth::proxy
 {
 
-/// Return the least error, from `error` on, whose cut has at most `max_triangles`; that of the coarsest cut if
-/// none has as few.
+/// Return the least error, from `error` on, whose cut has at most `max_triangles`; that of the coarsest
+/// cut if none has as few.
 /// part   a clusters part that checkHierarchy accepts
 /// error  metres, >= 0, finite
 float findCutError(const formats::PackView& part, uint32_t mesh, float error, uint64_t max_triangles);

@@ -9,10 +9,11 @@
 namespace hearth::command
 {
 
-/// Map the file and check all of it: the container, every hash, and for a pack the meaning of every record. A
-/// part is opened as well: its tables are safe to read, but only the meaning of its bricks, receivers and
-/// proxies is checked, which need no other tables.
-/// errors: those of ContainerReader::open, PackView::read, checkPack, checkBricks, checkReceivers and checkProxies.
+/// Map the file and check all of it: the container, every hash, and for a pack the meaning of every
+/// record. A part is opened as well: its tables are safe to read, but only the meaning of its bricks,
+/// receivers and proxies is checked, which need no other tables.
+/// errors: those of ContainerReader::open, PackView::read, checkPack, checkBricks, checkReceivers and
+/// checkProxies.
 Result<formats::PackView> openContainer(const std::string& path);
 
 /// Same, for packs only. errors: container_kind if the file is a part.

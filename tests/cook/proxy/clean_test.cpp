@@ -1,4 +1,4 @@
-// Tests that any triangles become a manifold, that nothing of the surface moves, and that shells face outwards.
+// Tests that any triangles become a manifold of the same points, whose shells face outwards.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/proxy/clean/clean.h"
 #include "formats/base/double3.h"
@@ -150,7 +150,8 @@ TEST(CleanSurface, removesNeedles)
         EXPECT_NE(material, kInvalidIndex);
 }
 
-/// Triangles of a small set of vertices in general position: at edges and vertices meet as many as chance wants.
+/// Triangles of a small set of vertices in general position: at edges and vertices meet as many as chance
+/// wants.
 Surface tangle(uint32_t vertices, uint32_t triangles, uint32_t seed)
 {
     std::mt19937 random(seed);
