@@ -113,6 +113,8 @@ TEST_F(CookProxies, haveASectionForEachMaterial)
     const std::string obj = folder.read("crate_proxy.obj");
     EXPECT_NE(obj.find("\ng wood\n"), std::string::npos) << obj;
     EXPECT_NE(obj.find("\ng tin_plate\n"), std::string::npos) << obj;
+    const ProgramEnd glb = hearth({"extract", "a.hearth", "-o", "crate.glb"});
+    EXPECT_NE((glb.out + glb.err).find("proxies: 1"), std::string::npos) << glb.out << glb.err;
 }
 
 TEST_F(CookProxies, belongToTheMeshesOfTheirSource)

@@ -2,6 +2,7 @@
 // the programs of OpenImageIO, beside tests that write files byte by byte.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/base/half.h"
+#include "pipelines/import/images/decode.h"
 #include "tests/pipelines_images/images_fixture.h"
 #include "tests/support/sandbox.h"
 
@@ -35,11 +36,9 @@ ProgramEnd runTool(Sandbox& folder, const std::string& words)
     return folder.run(command);
 }
 
-/// Decode a file of the folder; shares of the full range, or floats, as RGBA.
-std::vector<float> readByHearth(const Sandbox& folder, Format format, const std::string& name,
-                                const std::string& layer = {})
+/// Return the texels of a decoded file: shares of the full range, or floats, as RGBA.
+std::vector<float> listTexels(const std::string& name, const Result<import::DecodedImage>& image)
 {
-    const auto image = decode(format, folder.read(name), {.layer = layer});
     if (!image.ok())
     {
         ADD_FAILURE() << name << ": " << formatMessage(image.error());
@@ -52,6 +51,20 @@ std::vector<float> readByHearth(const Sandbox& folder, Format format, const std:
                              : static_cast<float>(number) / (image->channelBytes() == 1 ? 255.f : 65535.f));
     EXPECT_EQ(texels.size(), size_t{4} * kSide * kSide) << name;
     return texels;
+}
+
+/// Decode a file of the folder by hearth-images.
+std::vector<float> readByHearth(const Sandbox& folder, Format format, const std::string& name,
+                                const std::string& layer = {})
+{
+    return listTexels(name, decode(format, folder.read(name), {.layer = layer}));
+}
+
+/// Decode a file of the folder by the importer alone.
+std::vector<float> readByImporter(const Sandbox& folder, const std::string& name)
+{
+    const std::string bytes = folder.read(name);
+    return listTexels(name, import::decodeImage(std::as_bytes(std::span(bytes)), name, {}));
 }
 
 /// Write images of RGBA as the parts of an EXR.
@@ -135,6 +148,60 @@ TEST(Oiiotool, agreesAboutImages)
     {
         const ProgramEnd compared = runTool(folder, words);
         EXPECT_EQ(compared.exit_code, 0) << words << "\n" << compared.out << compared.err;
+    }
+}
+
+TEST(Oiiotool, agreesAboutImagesOfEachDecoderOfTheImporter)
+{
+    // largest difference: halves of HDR and EXR beside floats, and the rounding of a JPEG's inverse transform
+    struct Row
+    {
+        const char* name;
+        const char* written; ///< words of oiiotool
+        double tolerance;
+    };
+    const std::string colors = noise("min=0:max=1", 7, 4), opaque = noise("min=0:max=1", 8, 3),
+                      bright = noise("min=0.01:max=100", 9, 3);
+    const Row rows[] = {
+        {"eight.png", " -d uint8 -o eight.png", 1e-6},
+        {"sixteen.png", " -d uint16 -o sixteen.png", 1e-6},
+        {"lossless.webp", " -d uint8 --compression lossless:100 -o lossless.webp", 1e-6},
+        {"runs.tga", " -d uint8 --compression rle -o runs.tga", 1e-6},
+        {"plain.tga", " -d uint8 --compression none -o plain.tga", 1e-6},
+        {"plain.bmp", " -d uint8 -o plain.bmp", 1e-6},
+        {"fine.jpg", " -d uint8 --compression jpeg:98 -o fine.jpg", 1.5 / 255},
+        {"light.hdr", " -o light.hdr", 0.06},
+        {"zip.exr", " -d half --compression zip -o zip.exr", 1e-6},
+        {"piz.exr", " -d half --compression piz -o piz.exr", 1e-6},
+        {"floats.exr", " -d float --compression rle -o floats.exr", 0.04},
+    };
+    Sandbox folder;
+    std::string write = "oiiotool --no-autopremult", read = write;
+    for (const Row& row : rows)
+    {
+        const std::string name = row.name;
+        const bool is_bright = name.ends_with(".hdr") || name.ends_with(".exr");
+        // oiiotool multiplies the colours of WebP by their alpha in any case
+        const bool is_opaque =
+            is_bright || name.ends_with(".jpg") || name.ends_with(".bmp") || name.ends_with(".webp");
+        write += (is_bright   ? bright
+                  : is_opaque ? opaque
+                              : colors + " --attrib oiio:UnassociatedAlpha 1") +
+                 row.written;
+        read += " " + name + (is_opaque ? " --ch R,G,B,A=1" : "") + " -d float -o " + name + ".expected.exr";
+    }
+    for (const std::string& words : {write, read})
+    {
+        const ProgramEnd end = runTool(folder, words);
+        ASSERT_EQ(end.exit_code, 0) << words << end.err << end.out;
+    }
+    for (const Row& row : rows)
+    {
+        writeParts(folder, "read.exr", {readByImporter(folder, row.name)});
+        const std::string tolerance = std::to_string(row.tolerance);
+        const ProgramEnd compared = runTool(folder, "idiff -fail " + tolerance + " -warn " + tolerance + " " +
+                                                        row.name + ".expected.exr read.exr");
+        EXPECT_EQ(compared.exit_code, 0) << row.name << "\n" << compared.out << compared.err;
     }
 }
 
