@@ -18,6 +18,7 @@ libgmp|GMP|LGPL-3.0-or-later
 libmpfr|MPFR|LGPL-3.0-or-later
 libcrypto|OpenSSL|Apache-2.0
 libtbb|oneTBB|Apache-2.0
+libOpenMesh|OpenMesh|BSD-3-Clause
 libembree|Embree|Apache-2.0
 libpng|libpng|libpng-2.0
 libz.so|zlib|Zlib
