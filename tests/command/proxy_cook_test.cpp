@@ -119,7 +119,7 @@ TEST_F(CookProxies, haveASectionForEachMaterial)
 
 TEST_F(CookProxies, belongToTheMeshesOfTheirSource)
 {
-    folder.write("hearth.toml", "[[rules]]\nmatch = \"crate.obj\"\nproxy.from = \"clean\"\n");
+    folder.write("hearth.toml", "[[rule]]\nmatch = \"crate.obj\"\nproxy.from = \"clean\"\n");
     const ProgramEnd end = cook({"box.obj", "crate.obj"}, {"--config", "hearth.toml"});
     ASSERT_EQ(end.exit_code, 0) << end.err;
     const Json pack = inspect();

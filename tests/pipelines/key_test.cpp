@@ -164,7 +164,7 @@ TEST_F(Keys, everyParameterChangesThem)
              s.lods_of_source.emplace_back();
          },
          {"import", "textures", "estimates", "budget", "texels", "clusters", "skinning", "neighbours",
-          "visibility", "bricks", "receivers", "reflections", "link"}},
+          "visibility", "bricks", "receivers", "reflections", "wrap", "proxy", "link"}},
         {"no lod", [](CookSettings& s) { s.lods_of_source.clear(); }, kOfSource},
         {"another level", [&](CookSettings& s) { s.lods_of_source = {{"2=" + low}}; }, kOfSource},
         {"another lod", [&](CookSettings& s) { s.lods_of_source = {{"1=" + s.sources[0]}}; }, kOfSource},

@@ -283,42 +283,57 @@ double largestCoordinate(const SurfaceView& surface)
     return largest;
 }
 
+/// Two surfaces to be compared.
+struct SurfacePair
+{
+    SurfacePair(const SurfaceView& a, const SurfaceView& b, double enough)
+        : tree_a(checked(a)), tree_b(checked(b))
+    {
+        HEARTH_ASSERT(enough >= 0);
+        const double coordinates = std::max(largestCoordinate(a), largestCoordinate(b));
+        // smaller distances cannot be distinguished from 0 in the float positions of the surfaces
+        least = std::max(enough, coordinates * 1e-6);
+        rounding = coordinates * kBoundRounding;
+    }
+
+    /// Round a bound of any of both up.
+    void finish(SurfaceBound& bound) const
+    {
+        bound.upper += rounding;
+        HEARTH_ASSERT(bound.upper >= 0 && bound.sure >= 0);
+    }
+
+    static const SurfaceView& checked(const SurfaceView& surface)
+    {
+        HEARTH_ASSERT(!surface.corners.empty() && allBelow(surface.corners, surface.positions.size()));
+        return surface;
+    }
+
+    SurfaceTree tree_a, tree_b;
+    double least;
+    double rounding;
+};
+
 } // namespace
 
 SurfaceBounds boundSurfaceSides(const SurfaceView& a, const SurfaceView& b, double enough)
 {
-    HEARTH_ASSERT(!a.corners.empty() && !b.corners.empty() && enough >= 0);
-    HEARTH_ASSERT(allBelow(a.corners, a.positions.size()) && allBelow(b.corners, b.positions.size()));
-    const double coordinates = std::max(largestCoordinate(a), largestCoordinate(b));
-    // smaller distances cannot be distinguished from 0 in the float positions of the surfaces
-    const double least = std::max(enough, coordinates * 1e-6);
-    const SurfaceTree tree_a(a);
-    const SurfaceTree tree_b(b);
+    const SurfacePair pair(a, b, enough);
     SurfaceBounds bounds;
-    boundOneSide(a, tree_a, tree_b, least, bounds.a);
-    boundOneSide(b, tree_b, tree_a, least, bounds.b);
-    for (SurfaceBound* const bound : {&bounds.a, &bounds.b})
-    {
-        bound->upper += coordinates * kBoundRounding;
-        HEARTH_ASSERT(bound->upper >= 0 && bound->sure >= 0);
-    }
+    boundOneSide(a, pair.tree_a, pair.tree_b, pair.least, bounds.a);
+    boundOneSide(b, pair.tree_b, pair.tree_a, pair.least, bounds.b);
+    pair.finish(bounds.a);
+    pair.finish(bounds.b);
     return bounds;
 }
 
 SurfaceBound boundSurfaces(const SurfaceView& a, const SurfaceView& b, double enough)
 {
-    HEARTH_ASSERT(!a.corners.empty() && !b.corners.empty() && enough >= 0);
-    HEARTH_ASSERT(allBelow(a.corners, a.positions.size()) && allBelow(b.corners, b.positions.size()));
-    const double coordinates = std::max(largestCoordinate(a), largestCoordinate(b));
-    // smaller distances cannot be distinguished from 0 in the float positions of the surfaces
-    const double least = std::max(enough, coordinates * 1e-6);
-    const SurfaceTree tree_a(a);
-    const SurfaceTree tree_b(b);
+    const SurfacePair pair(a, b, enough);
     SurfaceBound bound;
-    boundOneSide(a, tree_a, tree_b, least, bound);
-    boundOneSide(b, tree_b, tree_a, least, bound);
-    bound.upper += coordinates * kBoundRounding;
-    HEARTH_ASSERT(bound.upper >= 0 && bound.sure >= 0);
+    boundOneSide(a, pair.tree_a, pair.tree_b, pair.least, bound);
+    boundOneSide(b, pair.tree_b, pair.tree_a, pair.least, bound);
+    pair.finish(bound);
     return bound;
 }
 

@@ -199,7 +199,7 @@ TEST_F(Manual, doctorSaysWhatIsWrongAndWhatToDo)
     // a program of another version
     for (const char* name :
          {"import", "textures", "estimates", "budget", "texels", "clusters", "skinning", "neighbours",
-          "visibility", "specular", "probe", "bricks", "receivers", "reflections", "link", "render"})
+          "visibility", "specular", "probe", "bricks", "proxy", "receivers", "reflections", "link", "render"})
         folder.write(std::string("bin/hearth-") + name,
                      std::string("#!/bin/sh\necho a device\nexit 0\nhearth program version 0.0.1") + '\0',
                      true);
