@@ -17,11 +17,11 @@ std::vector<Setting> makeProxySettings()
 {
     return {
         withOption(
-            choiceSetting("proxy.from",
-                          "proxies of meshes, for collision and as occluders: source, none but those that "
-                          "artists made; clean, the mesh repaired and decimated; wrap, a closed surface "
-                          "around it",
-                          "source", {"source", "clean", "wrap"}),
+            choiceSetting(
+                "proxy.from",
+                "proxies of meshes, for collision and as occluders: source, none; clean, the mesh repaired "
+                "and decimated; wrap, a closed surface around it",
+                "source", {"source", "clean", "wrap"}),
             "--proxy-from", "NAME"),
         withOption(numberSetting("proxy.error",
                                  "error of the cut that a clean proxy is made from, over the diagonal of the "

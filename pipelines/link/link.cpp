@@ -42,7 +42,7 @@ struct Source
     PackView clusters_part;
     PackView textures_part;
     PackView skinning_part;
-    PackView proxy_part;                          ///< the import part where it has none of its own
+    PackView proxy_part; ///< the import part, which has no proxies, where there is none
     Records<DeformedGroupRecord> deformed_groups; ///< of the skinning part
     std::vector<uint32_t> instance_meshes;        ///< of the clusters part
     std::string name;                             ///< of the asset
@@ -122,8 +122,11 @@ Result<Source> openSource(const SourceParts& parts)
     HEARTH_ASSIGN_OR_RETURN(PackView clusters_part, openPart(parts.clusters_part));
     HEARTH_ASSIGN_OR_RETURN(PackView textures_part, openPart(parts.textures_part));
     HEARTH_ASSIGN_OR_RETURN(PackView skinning_part, openPart(parts.skinning_part));
-    HEARTH_ASSIGN_OR_RETURN(PackView proxy_part,
-                            openPart(parts.proxy_part.empty() ? parts.import_part : parts.proxy_part));
+    PackView proxy_part = import_part;
+    if (!parts.proxy_part.empty())
+    {
+        HEARTH_ASSIGN_OR_RETURN(proxy_part, openPart(parts.proxy_part));
+    }
     HEARTH_TRY(checkProxies(proxy_part));
     HEARTH_ASSIGN_OR_RETURN(Records<DeformedGroupRecord> deformed_groups,
                             skinning_part.container().records<DeformedGroupRecord>(kChunkDeformedGroups));

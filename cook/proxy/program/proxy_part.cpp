@@ -96,10 +96,10 @@ public:
         MeshStatistics& statistics = made.statistics;
         statistics.mesh = mesh;
         statistics.name = std::string(clusters_.text(clusters_.meshes()[mesh].name));
-        HEARTH_ASSIGN_OR_RETURN(const Surface finest, readCut(clusters_, mesh, 0));
-        statistics.mesh_triangles = finest.triangleCount();
-        if (finest.triangleCount() == 0)
+        const MeshRecord& record = clusters_.meshes()[mesh];
+        if (record.levels.count == 0)
             return made;
+        statistics.mesh_triangles = clusters_.levels()[record.levels.first].triangle_count;
         if (wrap_ != nullptr)
         {
             statistics.origin = ProxyOrigin::wrapped;
@@ -107,7 +107,7 @@ public:
         }
         else
         {
-            HEARTH_ASSIGN_OR_RETURN(made.surface, readCut(clusters_, mesh, findError(mesh, finest)));
+            HEARTH_ASSIGN_OR_RETURN(made.surface, readCut(clusters_, mesh, findError(mesh)));
             statistics.clean = cleanSurface(made.surface, {.hole_length = settings_.hole_length});
         }
         if (made.surface.triangleCount() == 0)
@@ -121,9 +121,11 @@ public:
     }
 
 private:
-    float findError(uint32_t mesh, const Surface& finest) const
+    float findError(uint32_t mesh) const
     {
-        const auto error = static_cast<float>(settings_.error * double{findDiagonal(finest)});
+        const MeshRecord& record = clusters_.meshes()[mesh];
+        const auto error =
+            static_cast<float>(settings_.error * double{length(record.box_max - record.box_min)});
         return findCutError(clusters_, mesh, error, settings_.triangles);
     }
 

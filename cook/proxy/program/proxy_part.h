@@ -40,7 +40,7 @@ struct MeshStatistics
 /// Write proxies of all meshes with area. The result depends neither on the number of threads nor, on
 /// processors of one class, on the machine.
 ///
-/// import_part    meshes, and the proxies that artists made, which are kept
+/// import_part    meshes as they were imported
 /// clusters_part  of the same source
 /// wrap_part      closed surfaces around the meshes, which become their proxies; null: proxies are cleaned
 ///                cuts
