@@ -3,6 +3,7 @@
 #include "cook/mesh/closest_point.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace hearth::mesh
 {
@@ -107,6 +108,13 @@ ClosestPoint::Hit ClosestPoint::find(Float3 point, Float3 normal, double limit2,
         },
         [&](uint32_t i) { visit(query, triangles_[i], best); });
     return best;
+}
+
+double ClosestPoint::findDistance2(Float3 point, uint32_t triangle) const
+{
+    Hit hit{kInvalidIndex, 0, 0, std::numeric_limits<double>::infinity()};
+    visit({widen(point), {}, true, 0}, triangles_[slot_of_triangle_[triangle]], hit);
+    return hit.distance2;
 }
 
 } // namespace hearth::mesh

@@ -37,6 +37,9 @@ public:
     /// min_cosine  in [0, 1)
     Hit find(Float3 point, Float3 normal, double limit2, uint32_t hint, double min_cosine = 0) const;
 
+    /// Return the squared distance of a point to one of the triangles that are searched.
+    double findDistance2(Float3 point, uint32_t triangle) const;
+
 private:
     struct Triangle
     {

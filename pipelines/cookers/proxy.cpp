@@ -37,6 +37,16 @@ std::vector<Setting> makeProxySettings()
                           "diagonal; 0: none",
                           "0.05", 0, 16),
             "--proxy-holes", "SHARE"),
+        withOption(wholeNumberSetting("proxy.convex_parts",
+                                      "convex parts that take the place of a proxy's triangles, for physics, "
+                                      "at most; 0: none",
+                                      "0", 0, 1024),
+                   "--proxy-convex-parts", "COUNT"),
+        withOption(numberSetting("proxy.convex_error",
+                                 "convex parts are made while they reach farther than this from the mesh, "
+                                 "over the diagonal",
+                                 "0.02", 0, 1),
+                   "--proxy-convex-error", "SHARE"),
         flagSetting(std::string(kBindings), "store where the vertices of meshes are on their proxies",
                     "--proxy-bindings"),
     };
@@ -49,6 +59,8 @@ Result<Arguments> makeProxyArguments(const Values& values)
     addOption(values, "proxy.error", "--error", arguments);
     addOption(values, "proxy.triangles", "--triangles", arguments);
     addOption(values, "proxy.holes", "--holes", arguments);
+    addOption(values, "proxy.convex_parts", "--convex-parts", arguments);
+    addOption(values, "proxy.convex_error", "--convex-error", arguments);
     addFlag(values, kBindings, "--bindings", arguments);
     return arguments;
 }

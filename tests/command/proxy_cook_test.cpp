@@ -156,6 +156,27 @@ TEST_F(CookProxies, wrapOfACrateIsClosed)
     EXPECT_EQ(hearth({"verify", "a.hearth"}).exit_code, 0);
 }
 
+TEST_F(CookProxies, haveConvexPartsForPhysics)
+{
+    // an L of two boxes, closed
+    folder.write("l.obj", "v 0 0 0\nv 3 0 0\nv 3 1 0\nv 1 1 0\nv 1 3 0\nv 0 3 0\n"
+                          "v 0 0 1\nv 3 0 1\nv 3 1 1\nv 1 1 1\nv 1 3 1\nv 0 3 1\n"
+                          "f 4 3 2 1\nf 6 5 4 1\nf 7 8 9 10\nf 7 10 11 12\n"
+                          "f 1 2 8 7\nf 2 3 9 8\nf 3 4 10 9\nf 4 5 11 10\nf 5 6 12 11\nf 6 1 7 12\n");
+    const ProgramEnd end = cook({"l.obj"}, {"--proxy-from", "clean", "--proxy-convex-parts", "8"});
+    ASSERT_EQ(end.exit_code, 0) << end.err;
+    const Json proxies = inspect()["proxies"];
+    ASSERT_EQ(proxies.size(), 1u);
+    EXPECT_TRUE(proxies[0]["closed"].get<bool>());
+    EXPECT_LT(proxies[0]["distance"].get<double>(), 0.1);
+    EXPECT_LT(proxies[0]["mesh_distance"].get<double>(), 1e-3);
+    ASSERT_EQ(proxies[0]["sections"].size(), 2u);
+    EXPECT_TRUE(proxies[0]["sections"][0]["convex"].get<bool>());
+    EXPECT_TRUE(proxies[0]["sections"][1]["convex"].get<bool>());
+    EXPECT_EQ(proxies[0]["sections"][1]["triangles"], 12);
+    EXPECT_EQ(hearth({"verify", "a.hearth"}).exit_code, 0);
+}
+
 TEST_F(CookProxies, E1000_noProxyOfThatNumber)
 {
     ASSERT_EQ(cook({"box.obj"}, {"--proxy-from", "clean"}).exit_code, 0);

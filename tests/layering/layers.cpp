@@ -93,9 +93,11 @@ const std::vector<Layer>& layers()
         {"cook/proxy/surface", {"formats", "cook/mesh", "cook/clusters/surface"}},
         {"cook/proxy/clean",
          {"formats", "cook/mesh", "cook/sampling", "cook/ray_scene", "cook/proxy/surface"}},
+        {"cook/proxy/convex",
+         {"formats", "cook/mesh", "cook/ray_scene", "cook/proxy/surface", "cook/proxy/clean"}},
         {"cook/proxy/program",
          {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/mesh", "cook/proxy/surface",
-          "cook/proxy/clean"}},
+          "cook/proxy/clean", "cook/proxy/convex"}},
 
         {"cook/bricks/grid", {"formats"}},
         {"cook/bricks/voxels", {"formats", "cook/json", "cook/tools", "cook/bricks/grid"}},

@@ -253,6 +253,7 @@ TEST(Arguments, giveEachCookerItsOwnSettings)
         "visibility.power = 1\nvisibility.poses = ['Run', 'Walk']\n"
         "visibility.refine = true\nvisibility.occluders = 'mesh'\n"
         "proxy.from = 'wrap'\nproxy.error = 0.01\nproxy.triangles = 500\nproxy.holes = 0.5\n"
+        "proxy.convex_parts = 4\nproxy.convex_error = 0.1\n"
         "proxy.bindings = true\nproxy.alpha = 0.1\nproxy.offset = 0.01\n"
         "bricks.mode = 'on'\nbricks.voxel_size = 0.5\n"
         "bricks.memory = '1M'\nenvironment.file = 'sky.hdr'\n"
@@ -273,7 +274,8 @@ TEST(Arguments, giveEachCookerItsOwnSettings)
               (Words{"--quality", "draft", "--occluders", "mesh", "--distance", "2", "--power", "1",
                      "--poses", "Run", "--poses", "Walk", "--refine-cones", "--no-noise-estimate"}));
     EXPECT_EQ(wordsFor("proxy", values),
-              (Words{"--error", "0.01", "--triangles", "500", "--holes", "0.5", "--bindings"}));
+              (Words{"--error", "0.01", "--triangles", "500", "--holes", "0.5", "--convex-parts", "4",
+                     "--convex-error", "0.1", "--bindings"}));
     EXPECT_EQ(wordsFor("wrap", values), (Words{"--alpha", "0.1", "--offset", "0.01"}));
     EXPECT_EQ(wordsFor("bricks", values), (Words{"--voxel-size", "0.5", "--memory", "1048576"}));
     EXPECT_EQ(wordsFor("receivers", values),

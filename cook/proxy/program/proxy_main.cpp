@@ -23,6 +23,8 @@ struct Arguments
     std::string output;
     std::string statistics;
     proxy::ProxySettings settings;
+    uint32_t convex_parts = 0;
+    double convex_error = proxy::ConvexSettings{}.error;
     size_t jobs = 0;
 };
 
@@ -81,6 +83,14 @@ int program(int argc, char** argv)
                   "holes are filled whose boundary is at most this long, over the diagonal; 0: none")
         .range(0.0, 16.0, "SHARE")
         .showDefault();
+    app.addOption("--convex-parts", arguments.convex_parts,
+                  "make convex parts of it, for physics, at most that many; 0: it stays as it is")
+        .range(uint32_t{0}, uint32_t{1024}, "COUNT")
+        .showDefault();
+    app.addOption("--convex-error", arguments.convex_error,
+                  "convex parts are made while they reach farther than this from the mesh, over the diagonal")
+        .range(0.0, 1.0, "SHARE")
+        .showDefault();
     app.addFlag("--bindings", arguments.settings.binds_vertices,
                 "store where the mesh's vertices are on its proxy");
     app.addOption("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
@@ -91,6 +101,8 @@ int program(int argc, char** argv)
                   "write, 74 I/O");
     if (const std::optional<int> exit_code = app.parse(argc, argv))
         return *exit_code;
+    if (arguments.convex_parts > 0)
+        arguments.settings.convex = {arguments.convex_parts, arguments.convex_error};
     return run(arguments);
 }
 

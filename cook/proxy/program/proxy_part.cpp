@@ -6,6 +6,7 @@
 #include "cook/mesh/weld.h"
 #include "cook/proxy/surface/binding.h"
 #include "cook/proxy/surface/cut.h"
+#include "formats/base/rounding.h"
 #include "formats/container/container_writer.h"
 #include "formats/pack/pack_check.h"
 
@@ -31,7 +32,8 @@ constexpr double kEnoughWrapped = 5e-3;
 /// Proxy of one mesh.
 struct MadeProxy
 {
-    Surface surface; ///< triangles with one material follow each other
+    Surface surface; ///< triangles with one material follow each other, or those of a convex part
+    std::vector<uint32_t> part_ends; ///< of each convex part, if it has any: the triangle after its last one
     std::vector<ProxyBindingRecord> bindings;
     MeshStatistics statistics;
 };
@@ -112,15 +114,37 @@ public:
         }
         if (made.surface.triangleCount() == 0)
             return made;
+        if (settings_.convex)
+            return makeConvex(mesh, std::move(made));
         sortByMaterial(made.surface);
         statistics.triangles = static_cast<uint32_t>(made.surface.triangleCount());
         statistics.vertices = static_cast<uint32_t>(made.surface.positions.size());
         statistics.is_closed = isClosed(made.surface);
         HEARTH_TRY(measure(mesh, made));
+        HEARTH_TRY(bind(mesh, made));
         return made;
     }
 
 private:
+    /// Let convex parts take the place of a proxy's triangles.
+    Result<MadeProxy> makeConvex(uint32_t mesh, MadeProxy made) const
+    {
+        HEARTH_TRY(measure(mesh, made));
+        const Solid solid(made.surface);
+        ConvexParts parts = decompose(solid, *settings_.convex);
+        MeshStatistics& statistics = made.statistics;
+        statistics.distance = roundUp(double{statistics.distance} + parts.distance);
+        statistics.mesh_distance = roundUp(double{statistics.mesh_distance} + parts.surface_distance);
+        statistics.triangles = static_cast<uint32_t>(parts.surface.triangleCount());
+        statistics.vertices = static_cast<uint32_t>(parts.surface.positions.size());
+        statistics.convex_parts = static_cast<uint32_t>(parts.ends.size());
+        statistics.is_closed = true;
+        made.surface = std::move(parts.surface);
+        made.part_ends = std::move(parts.ends);
+        HEARTH_TRY(bind(mesh, made));
+        return made;
+    }
+
     float findError(uint32_t mesh) const
     {
         const MeshRecord& record = clusters_.meshes()[mesh];
@@ -129,7 +153,7 @@ private:
         return findCutError(clusters_, mesh, error, settings_.triangles);
     }
 
-    /// Bound the distances to the mesh as it was imported, and bind the vertices of its first level.
+    /// Bound the distances to the mesh as it was imported.
     Status measure(uint32_t mesh, MadeProxy& made) const
     {
         HEARTH_ASSIGN_OR_RETURN(const Surface source, readSurface(import_, mesh));
@@ -137,6 +161,12 @@ private:
             boundDistances(source, made.surface, wrap_ != nullptr ? kEnoughWrapped : kEnoughCleaned);
         made.statistics.distance = distances.of_proxy;
         made.statistics.mesh_distance = distances.of_mesh;
+        return success();
+    }
+
+    /// Bind the vertices of the mesh's first level, if that is asked for.
+    Status bind(uint32_t mesh, MadeProxy& made) const
+    {
         if (!settings_.binds_vertices)
             return success();
         HEARTH_ASSIGN_OR_RETURN(const FinestVertices vertices, readFinestVertices(clusters_, mesh));
@@ -158,10 +188,19 @@ Range append(std::vector<T>& table, const std::vector<T>& records)
     return range;
 }
 
-/// Return a section for each material of the surface, whose triangles are sorted by it.
-std::vector<ProxySectionRecord> makeSections(const Surface& surface)
+/// Return a section for each convex part, else for each material, which triangles are sorted by.
+std::vector<ProxySectionRecord> makeSections(const MadeProxy& made)
 {
     std::vector<ProxySectionRecord> sections;
+    const Surface& surface = made.surface;
+    uint32_t first = 0;
+    for (const uint32_t end : made.part_ends)
+    {
+        sections.push_back({{first, end - first}, surface.materials[first], 1});
+        first = end;
+    }
+    if (!sections.empty())
+        return sections;
     for (uint32_t t = 0; t < surface.triangleCount(); ++t)
         if (t > 0 && surface.materials[t] == surface.materials[t - 1])
             ++sections.back().triangles.count;
@@ -181,7 +220,7 @@ void addProxy(const MadeProxy& made, Tables& tables)
     record.mesh_distance = statistics.mesh_distance;
     record.positions = append(tables.positions, made.surface.positions);
     record.indices = append(tables.indices, made.surface.indices);
-    record.sections = append(tables.sections, makeSections(made.surface));
+    record.sections = append(tables.sections, makeSections(made));
     record.bindings = append(tables.bindings, made.bindings);
     tables.proxies.push_back(record);
 }
@@ -249,6 +288,7 @@ std::string statisticsJson(const std::string& source, const std::vector<MeshStat
                         {"mesh_triangles", mesh.mesh_triangles},
                         {"triangles", mesh.triangles},
                         {"vertices", mesh.vertices},
+                        {"convex_parts", mesh.convex_parts},
                         {"closed", mesh.is_closed},
                         {"distance", mesh.distance},
                         {"mesh_distance", mesh.mesh_distance},

@@ -3,8 +3,10 @@
 #pragma once
 
 #include "cook/proxy/clean/clean.h"
+#include "cook/proxy/convex/decompose.h"
 #include "formats/pack/pack_view.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +22,8 @@ struct ProxySettings
     /// Maximum length of a hole's boundary that is filled, over the diagonal.
     double hole_length = CleanSettings{}.hole_length;
     bool binds_vertices = false;
+    /// Convex parts that take the place of the triangles; nothing: the triangles stay.
+    std::optional<ConvexSettings> convex;
 };
 
 /// Statistics of one mesh, for the report.
@@ -31,6 +35,7 @@ struct MeshStatistics
     uint64_t mesh_triangles = 0;
     uint32_t triangles = 0; ///< 0: the mesh has no area, and no proxy
     uint32_t vertices = 0;
+    uint32_t convex_parts = 0; ///< 0: it is made of triangles
     bool is_closed = false;
     float distance = 0;      ///< as ProxyRecord::distance
     float mesh_distance = 0; ///< as ProxyRecord::mesh_distance

@@ -3,6 +3,7 @@
 
 #include "cook/clusters/surface/surface_bound.h"
 #include "cook/mesh/closest_point.h"
+#include "formats/base/rounding.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,14 +44,6 @@ private:
     clusters::IdVector<clusters::VertexId, Float3> positions_;
     clusters::CornerVector<clusters::VertexId> corners_;
 };
-
-/// Round up to a float.
-float roundUp(double value)
-{
-    const auto rounded = static_cast<float>(value);
-    return double{rounded} < value ? std::nextafter(rounded, std::numeric_limits<float>::infinity())
-                                   : rounded;
-}
 
 } // namespace
 
