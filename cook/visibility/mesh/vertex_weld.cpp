@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/mesh/vertex_weld.h"
 
+#include "formats/base/disjoint_sets.h"
 #include "formats/base/index.h"
 
 #include <array>
@@ -44,7 +45,7 @@ public:
           normals_(normals),
           position_tolerance_(position_tolerance),
           normal_tolerance_(normal_tolerance),
-          first_(positions.size()),
+          sets_(positions.size()),
           next_(positions.size(), kInvalidIndex),
           heads_(std::bit_ceil(positions.size() * 2 + 1), kInvalidIndex)
     {
@@ -52,15 +53,14 @@ public:
 
     std::vector<uint32_t> weld()
     {
-        for (uint32_t vertex = 0; vertex < first_.size(); ++vertex)
+        for (uint32_t vertex = 0; vertex < next_.size(); ++vertex)
         {
-            first_[vertex] = vertex;
             const Cell own = cellAt(vertex, 0);
             // an exact duplicate is merged and not searched for again: a thousand triangles that meet in one
             // vertex, each with its own copy, cost no time
             if (const uint32_t equal = findEqual(own, vertex); equal != kInvalidIndex)
             {
-                unite(vertex, equal);
+                sets_.unite(vertex, equal);
                 continue;
             }
             uniteWithNeighbours(vertex);
@@ -68,9 +68,10 @@ public:
             next_[vertex] = head;
             head = vertex;
         }
-        for (uint32_t vertex = 0; vertex < first_.size(); ++vertex)
-            first_[vertex] = find(vertex);
-        return std::move(first_);
+        std::vector<uint32_t> first(next_.size());
+        for (uint32_t vertex = 0; vertex < next_.size(); ++vertex)
+            first[vertex] = sets_.find(vertex);
+        return first;
     }
 
 private:
@@ -124,7 +125,7 @@ private:
         {
             for (uint32_t other = listHead(cell); other != kInvalidIndex; other = next_[other])
                 if (isNear(vertex, other))
-                    unite(vertex, other);
+                    sets_.unite(vertex, other);
             size_t axis = 0;
             while (axis < 6 && cell[axis] == high[axis])
             {
@@ -137,28 +138,11 @@ private:
         }
     }
 
-    uint32_t find(uint32_t vertex)
-    {
-        while (first_[vertex] != vertex)
-        {
-            first_[vertex] = first_[first_[vertex]];
-            vertex = first_[vertex];
-        }
-        return vertex;
-    }
-
-    void unite(uint32_t a, uint32_t b)
-    {
-        a = find(a);
-        b = find(b);
-        first_[std::max(a, b)] = std::min(a, b);
-    }
-
     std::span<const Float3> positions_;
     std::span<const Float3> normals_;
     double position_tolerance_;
     double normal_tolerance_;
-    std::vector<uint32_t> first_;
+    DisjointSets sets_;           ///< of vertices that are welded
     std::vector<uint32_t> next_;  ///< next vertex in the cell's list
     std::vector<uint32_t> heads_; ///< first vertex of each list; cells may share a list
 };
