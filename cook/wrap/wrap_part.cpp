@@ -8,6 +8,7 @@
 #include <tbb/global_control.h>
 #include <tbb/parallel_pipeline.h>
 
+#include <algorithm>
 #include <atomic>
 #include <fmt/format.h>
 #include <memory>
@@ -71,7 +72,12 @@ Result<std::vector<WrapStatistics>> wrapPart(const std::string& import_path, con
             return nullptr;
         }
         const uint32_t index = next++;
-        return std::make_shared<Work>(Work{index, mesh::readSourceMesh(part.container(), index)});
+        auto work = std::make_shared<Work>(Work{index, mesh::readSourceMesh(part.container(), index)});
+        // a mesh for which an artist made a proxy needs no wrap
+        if (work->source.ok() &&
+            std::ranges::binary_search(part.proxies(), index, {}, &formats::ProxyRecord::mesh))
+            work->source.value().indices.clear();
+        return work;
     };
     const auto wrap = [&](const std::shared_ptr<Work>& work)
     { return std::make_shared<Wrapped>(wrapOne(work->source, work->index, import_path, options)); };

@@ -15,8 +15,8 @@ struct WrapStatistics
     double seconds = 0;     ///< processor time
 };
 
-/// Wrap each mesh (chunk SMSH) of an import part, and write them as chunks SMSH of the same numbers. The
-/// bytes do not depend on the number of threads.
+/// Wrap each mesh (chunk SMSH) of an import part, and write them as chunks SMSH of the same numbers. One
+/// of a mesh for which the part has a proxy is empty. The bytes do not depend on the number of threads.
 /// returns  statistics for each mesh. errors: those of openPart, readSourceMesh, wrapMesh and ContainerWriter
 Result<std::vector<WrapStatistics>> wrapPart(const std::string& import_path, const std::string& output_path,
                                              const WrapOptions& options);

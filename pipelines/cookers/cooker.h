@@ -45,10 +45,10 @@ struct Cooker
     /// source: runs once for each source; pack: runs once for all sources
     settings::Scope scope = settings::Scope::source;
     /// key of the setting that switches the cooker (settings::switchSetting, or a list): it runs unless this
-    /// is off, or an empty list; empty: it always runs
+    /// is off, or an empty list, or as runsFor says; empty: it always runs
     std::string_view switched_by{};
-    /// values of that setting for which it runs; empty: all but off
-    std::vector<std::string_view> runs_for{};
+    /// True if the cooker runs, by the settings of a source or of the pack; null: by that setting alone
+    bool (*runsFor)(const settings::Values& values) = nullptr;
     /// Cookers whose parts it reads, in the order of its command line. A cooker of the pack reads the parts
     /// of each source. A part that is not made, because its cooker is off, is left out.
     std::vector<std::string_view> reads{};

@@ -43,6 +43,11 @@ std::vector<Setting> makeImportSettings()
                       "on: the image-based light of a scene is the sky of the pack, unless environment.file "
                       "names one",
                       "on", {"on", "off"}),
+        withOption({std::string(kImportProxies), Kind::texts,
+                    "MESH=FILE: proxies from files of the source's folder for the meshes or nodes of these "
+                    "names; FILE alone is of the only mesh",
+                    "those that the source has"},
+                   "--proxy", "MESH=FILE"),
         withSaving(
             "0 takes the keys of clips as they are",
             numberSetting("animation.error",
@@ -53,6 +58,10 @@ std::vector<Setting> makeImportSettings()
 
 Result<Arguments> makeImportArguments(const Values& values)
 {
+    const bool leaves_out_proxies = getProxyFrom(values) == "source";
+    if (const Value* const files = findValue(values, kImportProxies); files != nullptr && leaves_out_proxies)
+        return Error{Issue::profile_value, files->origin, std::string(kImportProxies),
+                     "has no effect: proxy.from = \"source\" leaves proxies out"};
     Arguments arguments;
     addOption(values, "import.crease_angle", "--crease-angle", arguments);
     addOption(values, "import.scale", "--scale", arguments);
@@ -60,6 +69,9 @@ Result<Arguments> makeImportArguments(const Values& values)
     addOption(values, kImportLayer, "--layer", arguments);
     addOption(values, "import.icc", "--icc", arguments);
     addOption(values, "import.sky", "--sky", arguments);
+    addOption(values, kImportProxies, "--proxy", arguments);
+    if (leaves_out_proxies)
+        arguments.words.insert(arguments.words.end(), {"--proxies", "off"});
     addAssignments(values, "animation", arguments);
     return arguments;
 }

@@ -1,5 +1,6 @@
 // hearth-proxy: simple, clean meshes that stand for the meshes of a source.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/cookers/registry.h"
 #include "pipelines/cookers/words.h"
 #include "pipelines/settings/make_setting.h"
 
@@ -12,16 +13,19 @@ namespace
 using namespace settings;
 
 constexpr std::string_view kBindings = "proxy.bindings";
+constexpr std::string_view kAuthored = "authored";
 
 std::vector<Setting> makeProxySettings()
 {
     return {
         withOption(
             choiceSetting(
-                "proxy.from",
-                "proxies of meshes, for collision and as occluders: source, none; clean, the mesh repaired "
-                "and decimated; wrap, a closed surface around it",
-                "source", {"source", "clean", "wrap"}),
+                std::string(kProxyFrom),
+                "proxies of meshes, for collision and as occluders: authored, those of the source alone, "
+                "called "
+                "X_PROXY or UCX_X; for meshes without them, clean, the mesh repaired and decimated, or wrap, "
+                "a closed surface around it; source, none",
+                kAuthored, {kAuthored, "source", "clean", "wrap"}),
             "--proxy-from", "NAME"),
         withOption(numberSetting("proxy.error",
                                  "error of the cut that a clean proxy is made from, over the diagonal of the "
@@ -52,10 +56,20 @@ std::vector<Setting> makeProxySettings()
     };
 }
 
+/// True if there is more to do than to take the proxies of the import part, which hearth-link does.
+bool runsProxy(const Values& values)
+{
+    const std::string from = getProxyFrom(values);
+    return from == "clean" || from == "wrap" || (from == kAuthored && isOn(values, kBindings));
+}
+
 Result<Arguments> makeProxyArguments(const Values& values)
 {
     Arguments arguments;
-    arguments.depends_on_processor = true; // rays decide which side of a shell is out
+    if (getProxyFrom(values) == kAuthored)
+        arguments.words.emplace_back("--authored");
+    else
+        arguments.depends_on_processor = true; // rays decide which side of a shell is out
     addOption(values, "proxy.error", "--error", arguments);
     addOption(values, "proxy.triangles", "--triangles", arguments);
     addOption(values, "proxy.holes", "--holes", arguments);
@@ -67,11 +81,16 @@ Result<Arguments> makeProxyArguments(const Values& values)
 
 } // namespace
 
+std::string getProxyFrom(const Values& values)
+{
+    return settings::choiceOr(values, kProxyFrom, kAuthored);
+}
+
 Cooker describeProxy()
 {
     return {.name = "proxy",
-            .switched_by = "proxy.from",
-            .runs_for = {"clean", "wrap"},
+            .switched_by = kProxyFrom,
+            .runsFor = runsProxy,
             .reads = {"import", "clusters", "wrap"},
             .link_option = "--proxies",
             .has_statistics = true,

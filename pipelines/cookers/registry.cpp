@@ -86,11 +86,9 @@ bool isEnabled(const Cooker& cooker, const Values& of_pack, std::span<const Valu
     HEARTH_ASSERT(setting != nullptr);
     const auto isNotOff = [&](const Values& values)
     {
+        if (cooker.runsFor != nullptr)
+            return cooker.runsFor(values);
         const settings::Value* const value = settings::findValue(values, setting->key);
-        if (!cooker.runs_for.empty())
-            return std::ranges::find(cooker.runs_for,
-                                     settings::choiceOr(values, setting->key, setting->default_text)) !=
-                   cooker.runs_for.end();
         return value == nullptr ? setting->default_text != "off"
                                 : value->text != "\"off\"" && value->text != "[]";
     };

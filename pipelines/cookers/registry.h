@@ -5,6 +5,7 @@
 #include "pipelines/cookers/cooker.h"
 
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace hearth::cookers
@@ -30,5 +31,14 @@ Status checkSourceSettings(const settings::Values& values);
 
 /// Key of the authored LODs of a source. It selects files, so it is not a cooker argument.
 inline constexpr std::string_view kImportLods = "import.lods";
+
+/// Key of the files with proxies of a source's meshes.
+inline constexpr std::string_view kImportProxies = "import.proxies";
+
+/// Key of the origin of the proxies of a source's meshes.
+inline constexpr std::string_view kProxyFrom = "proxy.from";
+
+/// Return the origin of proxies that settings of a source name, or the default.
+std::string getProxyFrom(const settings::Values& values);
 
 } // namespace hearth::cookers

@@ -1,5 +1,6 @@
 // hearth-wrap: closed surfaces around the meshes of a source, for their proxies. A package of its own.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "pipelines/cookers/registry.h"
 #include "pipelines/cookers/words.h"
 #include "pipelines/settings/make_setting.h"
 
@@ -42,8 +43,8 @@ Cooker describeWrap()
 {
     return {.name = "wrap",
             .has_package_of_its_own = true,
-            .switched_by = "proxy.from",
-            .runs_for = {"wrap"},
+            .switched_by = kProxyFrom,
+            .runsFor = [](const Values& values) { return getProxyFrom(values) == "wrap"; },
             .reads = {"import"},
             .is_linked = false,
             .has_statistics = true,

@@ -15,9 +15,11 @@
 #include "pipelines/import/images/images_program.h"
 #include "pipelines/import/part/compress_part_clips.h"
 #include "pipelines/import/part/source_space.h"
+#include "pipelines/import/proxy_files.h"
 #include "pipelines/import/read_source.h"
 
 #include <cstdio>
+#include <filesystem>
 
 namespace
 {
@@ -40,6 +42,8 @@ struct Arguments
     std::string layer;
     std::string icc = "ignore";
     std::string sky = "on";
+    std::string proxies = "on";
+    std::vector<std::string> proxy_files;
     uint32_t max_sky_size = probes::kMaxSkySide;
 };
 
@@ -54,6 +58,19 @@ void printWarnings(const import::PartBuilder& part)
                      static_cast<unsigned long long>(part.omittedWarningCount()));
 }
 
+/// Create a folder for parts of further files.
+Result<TempDirectory> createTemporaryFolder(const Arguments& arguments)
+{
+    return TempDirectory::create(temporaryFolderOr(parentFolder(arguments.output)), arguments.output);
+}
+
+Result<std::vector<import::FileProxies>>
+readFileProxies(const Arguments& arguments, const import::ImportOptions& options, import::PartBuilder& part)
+{
+    HEARTH_ASSIGN_OR_RETURN(const TempDirectory folder, createTemporaryFolder(arguments));
+    return import::readProxyFiles(arguments.proxy_files, arguments.source, folder.path(), options, part);
+}
+
 Status readAll(const Arguments& arguments, std::span<const tools::LodFile> lods, tools::DependencyList& reads,
                import::PartBuilder& part)
 {
@@ -65,13 +82,21 @@ Status readAll(const Arguments& arguments, std::span<const tools::LodFile> lods,
         options.reads = &reads;
     import::ImagesProgram images(tools::programFolder() + "/hearth-images");
     options.takes_sky = arguments.sky == "on";
+    if (arguments.proxies == "off")
+        options.proxies = import::AuthoredProxies::left_out;
     options.artist = {&images, arguments.layer, arguments.icc == "convert"};
+    std::vector<import::FileProxies> file_proxies;
+    // a source that is missing is an error of its reader
+    if (!arguments.proxy_files.empty() && std::filesystem::exists(arguments.source))
+    {
+        HEARTH_ASSIGN_OR_RETURN(file_proxies, readFileProxies(arguments, options, part));
+        options.file_proxies = &file_proxies;
+    }
     HEARTH_TRY(import::readSource(arguments.source, options, part));
     if (lods.empty())
         return success();
-    HEARTH_ASSIGN_OR_RETURN(
-        const TempDirectory folder,
-        TempDirectory::create(temporaryFolderOr(parentFolder(arguments.output)), arguments.output));
+    options.file_proxies = nullptr;
+    HEARTH_ASSIGN_OR_RETURN(const TempDirectory folder, createTemporaryFolder(arguments));
     return import::addAuthoredLods(lods, folder.path(), options, part);
 }
 
@@ -145,6 +170,17 @@ int program(int argc, char** argv)
         .choices({"convert", "ignore"})
         .showDefault();
     app.addOption("--sky", arguments.sky, "take the image-based light of the scene for the sky of the pack")
+        .choices({"on", "off"})
+        .showDefault();
+    app.addOption(
+           "--proxy", arguments.proxy_files,
+           "MESH=FILE: proxy of the mesh or node of that name, from the source's folder; FILE alone is "
+           "of the only mesh")
+        .oneValueEach();
+    app.addOption(
+           "--proxies", arguments.proxies,
+           "keep the proxies of meshes that an artist made: nodes called X_PROXY or UCX_X, or with the "
+           "extra hearth_proxy; off: they are not drawn either")
         .choices({"on", "off"})
         .showDefault();
     app.addOption("--sky-size", arguments.max_sky_size,

@@ -6,6 +6,7 @@
 #include "pipelines/import/images/decode.h"
 #include "pipelines/import/part/import_options.h"
 #include "pipelines/import/part/part_builder.h"
+#include "pipelines/import/part/part_proxies.h"
 #include "pipelines/import/scans/import_scan.h"
 #include "pipelines/import/source/file_bytes.h"
 
@@ -48,7 +49,12 @@ Status readSource(const std::string& path, const ImportOptions& options, PartBui
     if (looksLikeGltf(path, bytes))
         HEARTH_TRY(importGltf(path, file, options, part));
     else if (looksLikeImage(path, bytes))
+    {
+        if (options.file_proxies != nullptr)
+            return Error{Issue::usage, "--proxy " + options.file_proxies->front().word, "",
+                         path + " is an image: it has no mesh that a proxy could stand for"};
         HEARTH_TRY(importImage(path, bytes, options, part));
+    }
     else
         HEARTH_TRY(importScan(path, bytes, options, part));
     return file.checkUnchanged();

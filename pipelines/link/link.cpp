@@ -42,7 +42,7 @@ struct Source
     PackView clusters_part;
     PackView textures_part;
     PackView skinning_part;
-    PackView proxy_part; ///< the import part, which has no proxies, where there is none
+    PackView proxy_part; ///< the import part, with those of an artist, where there is none
     Records<DeformedGroupRecord> deformed_groups; ///< of the skinning part
     std::vector<uint32_t> instance_meshes;        ///< of the clusters part
     std::string name;                             ///< of the asset

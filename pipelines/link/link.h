@@ -18,7 +18,7 @@ struct SourceParts
     std::string clusters_part;
     std::string textures_part;
     std::string skinning_part;
-    /// part with proxies of its meshes; empty: it has none
+    /// part with proxies of its meshes; empty: those of the import part are taken
     std::string proxy_part{};
 };
 

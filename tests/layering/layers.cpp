@@ -135,8 +135,8 @@ const std::vector<Layer>& layers()
         // from sources to parts
         {"pipelines/import/part",
          {"formats", "cook/json", "cook/tools", "cook/mesh", "cook/animation_bounds",
-          "cook/animation_compression", "cook/environment", "cook/probes", "cook/receivers/bake",
-          "cook/receivers/unwrap"}},
+          "cook/animation_compression", "cook/environment", "cook/probes", "cook/proxy/surface",
+          "cook/receivers/bake", "cook/receivers/unwrap"}},
         {"pipelines/images", {"formats"}},
         {"pipelines/import/images", {"formats", "pipelines/images", "pipelines/import/part"}},
         {"pipelines/import/source", {"formats", "cook/tools", "pipelines/import/images"}},

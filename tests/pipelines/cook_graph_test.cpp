@@ -260,6 +260,37 @@ TEST(CookGraph, linksProxiesOfTheSourcesThatHaveThem)
     EXPECT_EQ(commands.back(), link);
 }
 
+TEST(CookGraph, takesProxiesOfArtistsFromTheImportUnlessThereIsMoreToDo)
+{
+    CookSettings settings;
+    settings.sources = {"a.obj"};
+    settings.output = "a.hearth";
+    settings.values_of_source = {{{"visibility.mode", {"\"off\"", ""}}}};
+    settings.values_of_pack = {{"bricks.mode", {"\"off\"", ""}}};
+    const auto find = [&](const std::string& program)
+    {
+        for (const Words& words : getCommands(makeCookGraph(settings).value()))
+            if (words[0] == program)
+                return words;
+        return Words{};
+    };
+    settings::Values& values = settings.values_of_source[0];
+    EXPECT_TRUE(find("bin/hearth-proxy").empty()) << "by default it costs no step";
+    values["proxy.bindings"] = {"true", ""};
+    EXPECT_EQ(find("bin/hearth-proxy"),
+              (Words{"bin/hearth-proxy", "{import.part}", "{clusters.part}", "-o", "{proxy.part}",
+                     "--authored", "--bindings", "--stats", "{proxy.json}"}));
+    values["proxy.from"] = {"\"source\"", ""};
+    EXPECT_TRUE(find("bin/hearth-proxy").empty());
+    const Words import = find("bin/hearth-import");
+    EXPECT_NE(std::ranges::search(import, Words{"--proxies", "off"}).begin(), import.end());
+    values["import.proxies"] = {"[\"hull.obj\"]", ""};
+    EXPECT_FALSE(makeCookGraph(settings).ok()) << "one leaves out what the other names";
+    values.erase("proxy.from");
+    const Words named = find("bin/hearth-import");
+    EXPECT_NE(std::ranges::search(named, Words{"--proxy", "hull.obj"}).begin(), named.end());
+}
+
 TEST(CookGraph, linksPlainTexturesWhereNoFamilyIsWanted)
 {
     CookSettings settings = allSettings();

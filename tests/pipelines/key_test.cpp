@@ -234,8 +234,11 @@ TEST_F(Keys, flagsAddTheirCookers)
     other = settings;
     other.values_of_source[0]["proxy.from"].text = "\"clean\"";
     EXPECT_EQ(changed(before, keys(other)), (std::set<std::string>{"wrap", "proxy", "link"}));
-    other.values_of_source[0]["proxy.from"].text = "\"source\"";
+    other.values_of_source[0]["proxy.from"].text = "\"authored\"";
     EXPECT_EQ(changed(before, keys(other)), (std::set<std::string>{"wrap", "proxy", "link"}));
+    other.values_of_source[0]["proxy.from"].text = "\"source\"";
+    other.values_of_source[0].erase("import.proxies");
+    EXPECT_EQ(changed(before, keys(other)), kOfSource) << "import leaves them out";
     other = settings;
     other.values_of_pack["bricks.mode"].text = "\"off\"";
     EXPECT_EQ(changed(before, keys(other)), (std::set<std::string>{"bricks", "link", "receivers"}));

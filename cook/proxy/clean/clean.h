@@ -3,9 +3,9 @@
 #pragma once
 
 #include "cook/mesh/thin_triangles.h"
-#include "cook/proxy/clean/half_edges.h"
 #include "cook/proxy/clean/holes.h"
 #include "cook/proxy/clean/orientation.h"
+#include "cook/proxy/surface/half_edges.h"
 #include "cook/proxy/surface/surface.h"
 
 namespace hearth::proxy

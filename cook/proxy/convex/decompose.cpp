@@ -2,7 +2,7 @@
 #include "cook/proxy/convex/decompose.h"
 
 #include "cook/mesh/interior_edges.h"
-#include "cook/proxy/clean/half_edges.h"
+#include "cook/proxy/surface/half_edges.h"
 #include "cook/proxy/convex/lattice.h"
 #include "cook/proxy/convex/piece.h"
 #include "formats/base/assert.h"

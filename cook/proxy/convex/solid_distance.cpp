@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/proxy/convex/solid_distance.h"
 
-#include "cook/proxy/clean/half_edges.h"
+#include "cook/proxy/surface/half_edges.h"
 #include "formats/base/disjoint_sets.h"
 #include "formats/base/index.h"
 

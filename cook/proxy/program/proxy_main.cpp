@@ -64,6 +64,7 @@ int program(int argc, char** argv)
         "Makes simple, clean meshes that stand for the meshes of a source, for collision, as "
         "occluders and shadow casters, and writes the proxy part.");
     Arguments arguments;
+    bool is_authored = false;
     app.addOption("import", arguments.import_part, "import part").required();
     app.addOption("clusters", arguments.clusters_part, "clusters part of the same source").required();
     app.addOption(
@@ -93,6 +94,8 @@ int program(int argc, char** argv)
         .showDefault();
     app.addFlag("--bindings", arguments.settings.binds_vertices,
                 "store where the mesh's vertices are on its proxy");
+    app.addFlag("--authored", is_authored,
+                "take the proxies that artists made, which the import part has, and make none");
     app.addOption("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
     app.addOption("--stats", arguments.statistics,
                   "write statistics of each mesh as JSON; - is standard output");
@@ -103,6 +106,7 @@ int program(int argc, char** argv)
         return *exit_code;
     if (arguments.convex_parts > 0)
         arguments.settings.convex = {arguments.convex_parts, arguments.convex_error};
+    arguments.settings.makes_missing = !is_authored;
     return run(arguments);
 }
 

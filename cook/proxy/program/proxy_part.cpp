@@ -4,15 +4,14 @@
 #include "cook/json/json.h"
 #include "cook/mesh/source_mesh.h"
 #include "cook/mesh/weld.h"
-#include "cook/proxy/surface/binding.h"
 #include "cook/proxy/surface/cut.h"
+#include "cook/proxy/surface/proxy_tables.h"
 #include "formats/base/rounding.h"
 #include "formats/container/container_writer.h"
 #include "formats/pack/pack_check.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numeric>
+#include <optional>
 
 #include <tbb/parallel_for.h>
 
@@ -29,45 +28,27 @@ namespace
 constexpr double kEnoughCleaned = 1e-4;
 constexpr double kEnoughWrapped = 5e-3;
 
-/// Proxy of one mesh.
-struct MadeProxy
+/// Proxies of one mesh, and the statistics of each.
+struct ProxiesOfMesh
 {
-    Surface surface; ///< triangles with one material follow each other, or those of a convex part
-    std::vector<uint32_t> part_ends; ///< of each convex part, if it has any: the triangle after its last one
-    std::vector<ProxyBindingRecord> bindings;
-    MeshStatistics statistics;
+    std::vector<MadeProxy> made;
+    std::vector<MeshStatistics> statistics;
 };
 
-/// Tables of the part.
-struct Tables
+/// Copy a proxy of a part.
+MadeProxy readProxy(const PackView& part, const ProxyRecord& record)
 {
-    std::vector<ProxyRecord> proxies;
-    std::vector<ProxySectionRecord> sections;
-    std::vector<Float3> positions;
-    std::vector<uint32_t> indices;
-    std::vector<ProxyBindingRecord> bindings;
-};
-
-/// True if each half-edge is joined with another one.
-bool isClosed(const Surface& surface)
-{
-    const std::vector<uint32_t> joined = joinHalfEdges(surface);
-    return std::ranges::none_of(joined, [](uint32_t other) { return other == kInvalidIndex; });
-}
-
-/// Bring triangles with one material together, those without one last.
-void sortByMaterial(Surface& surface)
-{
-    std::vector<uint32_t> order(surface.triangleCount());
-    std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](uint32_t a, uint32_t b) { return surface.materials[a] < surface.materials[b]; });
-    Surface sorted;
-    for (const uint32_t t : order)
-        sorted.add({surface.indices[3 * t], surface.indices[3 * t + 1], surface.indices[3 * t + 2]},
-                   surface.materials[t]);
-    surface.indices = std::move(sorted.indices);
-    surface.materials = std::move(sorted.materials);
+    const auto copy = [](auto records) { return std::vector(records.begin(), records.end()); };
+    MadeProxy made;
+    made.origin = static_cast<ProxyOrigin>(record.origin);
+    made.is_closed = record.is_closed != 0;
+    made.distances = {record.distance, record.mesh_distance};
+    made.sections = copy(recordsInRange(part.proxySections(), record.sections));
+    made.surface.positions = copy(recordsInRange(part.proxyPositions(), record.positions));
+    made.surface.indices = copy(recordsInRange(part.proxyIndices(), record.indices));
+    for (const ProxySectionRecord& section : made.sections)
+        made.surface.materials.resize(section.triangles.first + section.triangles.count, section.material);
+    return made;
 }
 
 /// Read the mesh of a part that holds meshes as they are imported, welded by position.
@@ -81,7 +62,7 @@ Result<Surface> readSurface(const PackView& part, uint32_t mesh)
     return surface;
 }
 
-/// Makes the proxies of a source.
+/// Makes the proxies of a source, and takes those of its artist.
 class ProxyMaker
 {
 public:
@@ -91,20 +72,51 @@ public:
     {
     }
 
-    /// Make the proxy of a mesh; without triangles if the mesh has no area.
-    Result<MadeProxy> make(uint32_t mesh) const
+    /// Take the proxies that an artist made for a mesh, or make one; none if the mesh has no area.
+    Result<ProxiesOfMesh> make(uint32_t mesh) const
+    {
+        ProxiesOfMesh result;
+        const MeshRecord& record = clusters_.meshes()[mesh];
+        if (record.levels.count != 0)
+        {
+            const auto authored = std::ranges::equal_range(import_.proxies(), mesh, {}, &ProxyRecord::mesh);
+            for (const ProxyRecord& proxy : authored)
+                result.made.push_back(readProxy(import_, proxy));
+            if (authored.empty() && settings_.makes_missing)
+            {
+                HEARTH_ASSIGN_OR_RETURN(MadeProxy made, makeOne(mesh, result.statistics.emplace_back()));
+                result.made.push_back(std::move(made));
+            }
+        }
+        result.statistics.resize(std::max<size_t>(result.made.size(), 1));
+        for (MeshStatistics& statistics : result.statistics)
+        {
+            statistics.mesh = mesh;
+            statistics.name = std::string(clusters_.text(record.name));
+            if (record.levels.count != 0)
+                statistics.mesh_triangles = clusters_.levels()[record.levels.first].triangle_count;
+        }
+        for (size_t i = 0; i < result.made.size(); ++i)
+            HEARTH_TRY(finish(mesh, result.made[i], result.statistics[i]));
+        return result;
+    }
+
+private:
+    float findError(uint32_t mesh) const
+    {
+        const MeshRecord& record = clusters_.meshes()[mesh];
+        const auto error =
+            static_cast<float>(settings_.error * double{length(record.box_max - record.box_min)});
+        return findCutError(clusters_, mesh, error, settings_.triangles);
+    }
+
+    /// Make a proxy of a mesh; without triangles if nothing is left of it.
+    Result<MadeProxy> makeOne(uint32_t mesh, MeshStatistics& statistics) const
     {
         MadeProxy made;
-        MeshStatistics& statistics = made.statistics;
-        statistics.mesh = mesh;
-        statistics.name = std::string(clusters_.text(clusters_.meshes()[mesh].name));
-        const MeshRecord& record = clusters_.meshes()[mesh];
-        if (record.levels.count == 0)
-            return made;
-        statistics.mesh_triangles = clusters_.levels()[record.levels.first].triangle_count;
         if (wrap_ != nullptr)
         {
-            statistics.origin = ProxyOrigin::wrapped;
+            made.origin = ProxyOrigin::wrapped;
             HEARTH_ASSIGN_OR_RETURN(made.surface, readSurface(*wrap_, mesh));
         }
         else
@@ -114,60 +126,48 @@ public:
         }
         if (made.surface.triangleCount() == 0)
             return made;
+        HEARTH_ASSIGN_OR_RETURN(const Surface source, readSurface(import_, mesh));
+        made.distances =
+            boundDistances(source, made.surface, wrap_ != nullptr ? kEnoughWrapped : kEnoughCleaned);
         if (settings_.convex)
-            return makeConvex(mesh, std::move(made));
-        sortByMaterial(made.surface);
-        statistics.triangles = static_cast<uint32_t>(made.surface.triangleCount());
-        statistics.vertices = static_cast<uint32_t>(made.surface.positions.size());
-        statistics.is_closed = isClosed(made.surface);
-        HEARTH_TRY(measure(mesh, made));
-        HEARTH_TRY(bind(mesh, made));
+            replaceByConvexParts(made);
+        else
+        {
+            sortByMaterial(made.surface);
+            made.sections = makeMaterialSections(made.surface);
+            made.is_closed = isClosed(made.surface);
+        }
         return made;
     }
 
-private:
-    /// Let convex parts take the place of a proxy's triangles.
-    Result<MadeProxy> makeConvex(uint32_t mesh, MadeProxy made) const
+    void replaceByConvexParts(MadeProxy& made) const
     {
-        HEARTH_TRY(measure(mesh, made));
         const Solid solid(made.surface);
         ConvexParts parts = decompose(solid, *settings_.convex);
-        MeshStatistics& statistics = made.statistics;
-        statistics.distance = roundUp(double{statistics.distance} + parts.distance);
-        statistics.mesh_distance = roundUp(double{statistics.mesh_distance} + parts.surface_distance);
-        statistics.triangles = static_cast<uint32_t>(parts.surface.triangleCount());
-        statistics.vertices = static_cast<uint32_t>(parts.surface.positions.size());
-        statistics.convex_parts = static_cast<uint32_t>(parts.ends.size());
-        statistics.is_closed = true;
+        made.distances = {roundUp(double{made.distances.of_proxy} + parts.distance),
+                          roundUp(double{made.distances.of_mesh} + parts.surface_distance)};
+        uint32_t first = 0;
+        for (const uint32_t end : parts.ends)
+        {
+            made.sections.push_back({{first, end - first}, parts.surface.materials[first], 1});
+            first = end;
+        }
         made.surface = std::move(parts.surface);
-        made.part_ends = std::move(parts.ends);
-        HEARTH_TRY(bind(mesh, made));
-        return made;
+        made.is_closed = true;
     }
 
-    float findError(uint32_t mesh) const
+    /// Bind the vertices of the mesh's first level where asked for, and complete the statistics.
+    Status finish(uint32_t mesh, MadeProxy& made, MeshStatistics& statistics) const
     {
-        const MeshRecord& record = clusters_.meshes()[mesh];
-        const auto error =
-            static_cast<float>(settings_.error * double{length(record.box_max - record.box_min)});
-        return findCutError(clusters_, mesh, error, settings_.triangles);
-    }
-
-    /// Bound the distances to the mesh as it was imported.
-    Status measure(uint32_t mesh, MadeProxy& made) const
-    {
-        HEARTH_ASSIGN_OR_RETURN(const Surface source, readSurface(import_, mesh));
-        const Distances distances =
-            boundDistances(source, made.surface, wrap_ != nullptr ? kEnoughWrapped : kEnoughCleaned);
-        made.statistics.distance = distances.of_proxy;
-        made.statistics.mesh_distance = distances.of_mesh;
-        return success();
-    }
-
-    /// Bind the vertices of the mesh's first level, if that is asked for.
-    Status bind(uint32_t mesh, MadeProxy& made) const
-    {
-        if (!settings_.binds_vertices)
+        statistics.origin = made.origin;
+        statistics.triangles = static_cast<uint32_t>(made.surface.triangleCount());
+        statistics.vertices = static_cast<uint32_t>(made.surface.positions.size());
+        statistics.convex_parts =
+            static_cast<uint32_t>(std::ranges::count(made.sections, 1u, &ProxySectionRecord::is_convex));
+        statistics.is_closed = made.is_closed;
+        statistics.distance = made.distances.of_proxy;
+        statistics.mesh_distance = made.distances.of_mesh;
+        if (!settings_.binds_vertices || made.surface.triangleCount() == 0)
             return success();
         HEARTH_ASSIGN_OR_RETURN(const FinestVertices vertices, readFinestVertices(clusters_, mesh));
         made.bindings = bindVertices(vertices, made.surface);
@@ -180,59 +180,10 @@ private:
     const ProxySettings& settings_;
 };
 
-template <typename T>
-Range append(std::vector<T>& table, const std::vector<T>& records)
-{
-    const Range range{static_cast<uint32_t>(table.size()), static_cast<uint32_t>(records.size())};
-    table.insert(table.end(), records.begin(), records.end());
-    return range;
-}
-
-/// Return a section for each convex part, else for each material, which triangles are sorted by.
-std::vector<ProxySectionRecord> makeSections(const MadeProxy& made)
-{
-    std::vector<ProxySectionRecord> sections;
-    const Surface& surface = made.surface;
-    uint32_t first = 0;
-    for (const uint32_t end : made.part_ends)
-    {
-        sections.push_back({{first, end - first}, surface.materials[first], 1});
-        first = end;
-    }
-    if (!sections.empty())
-        return sections;
-    for (uint32_t t = 0; t < surface.triangleCount(); ++t)
-        if (t > 0 && surface.materials[t] == surface.materials[t - 1])
-            ++sections.back().triangles.count;
-        else
-            sections.push_back({{t, 1}, surface.materials[t], 0});
-    return sections;
-}
-
-void addProxy(const MadeProxy& made, Tables& tables)
-{
-    const MeshStatistics& statistics = made.statistics;
-    ProxyRecord record{};
-    record.mesh = statistics.mesh;
-    record.origin = static_cast<uint32_t>(statistics.origin);
-    record.is_closed = statistics.is_closed ? 1 : 0;
-    record.distance = statistics.distance;
-    record.mesh_distance = statistics.mesh_distance;
-    record.positions = append(tables.positions, made.surface.positions);
-    record.indices = append(tables.indices, made.surface.indices);
-    record.sections = append(tables.sections, makeSections(made));
-    record.bindings = append(tables.bindings, made.bindings);
-    tables.proxies.push_back(record);
-}
-
-Status writeTables(const std::string& path, const Tables& tables)
+Status writeTables(const std::string& path, const ProxyTables& tables)
 {
     HEARTH_ASSIGN_OR_RETURN(ContainerWriter writer, ContainerWriter::create(path, ContainerKind::part));
-    HEARTH_TRY(writer.addRecords<ProxyRecord>(kChunkProxies, tables.proxies));
-    HEARTH_TRY(writer.addRecords<ProxySectionRecord>(kChunkProxySections, tables.sections));
-    HEARTH_TRY(writer.addRecords<Float3>(kChunkProxyPositions, tables.positions));
-    HEARTH_TRY(writer.addRecords<uint32_t>(kChunkProxyIndices, tables.indices));
-    HEARTH_TRY(writer.addRecords<ProxyBindingRecord>(kChunkProxyBindings, tables.bindings));
+    HEARTH_TRY(tables.write(writer));
     return writer.finish();
 }
 
@@ -258,19 +209,25 @@ Result<std::vector<MeshStatistics>> writeProxyPart(const PackView& import_part, 
     HEARTH_TRY(checkHierarchy(clusters_part));
     const auto mesh_count = static_cast<uint32_t>(clusters_part.meshes().size());
     HEARTH_TRY(checkMeshes(import_part, mesh_count));
+    HEARTH_TRY(checkProxies(import_part));
     if (wrap_part != nullptr)
         HEARTH_TRY(checkMeshes(*wrap_part, mesh_count));
     const ProxyMaker maker(import_part, clusters_part, wrap_part, settings);
-    std::vector<std::optional<Result<MadeProxy>>> made(mesh_count);
+    std::vector<std::optional<Result<ProxiesOfMesh>>> made(mesh_count);
     tbb::parallel_for(0u, mesh_count, [&](uint32_t mesh) { made[mesh].emplace(maker.make(mesh)); });
-    Tables tables;
+    ProxyTables tables;
     std::vector<MeshStatistics> statistics;
-    for (std::optional<Result<MadeProxy>>& result : made)
+    for (uint32_t mesh = 0; mesh < mesh_count; ++mesh)
     {
-        HEARTH_ASSIGN_OR_RETURN(MadeProxy proxy, std::move(*result));
-        if (proxy.surface.triangleCount() > 0)
-            addProxy(proxy, tables);
-        statistics.push_back(std::move(proxy.statistics));
+        HEARTH_ASSIGN_OR_RETURN(ProxiesOfMesh proxies, std::move(*made[mesh]));
+        for (size_t i = 0; i < proxies.made.size(); ++i)
+        {
+            if (proxies.made[i].surface.triangleCount() == 0)
+                continue;
+            tables.add(mesh, proxies.made[i]);
+            proxies.statistics[i].bytes = countBytes(tables.proxies.back());
+        }
+        statistics.insert(statistics.end(), proxies.statistics.begin(), proxies.statistics.end());
     }
     HEARTH_TRY(writeTables(output_path, tables));
     return statistics;
@@ -292,6 +249,7 @@ std::string statisticsJson(const std::string& source, const std::vector<MeshStat
                         {"closed", mesh.is_closed},
                         {"distance", mesh.distance},
                         {"mesh_distance", mesh.mesh_distance},
+                        {"bytes", mesh.bytes},
                         {"doubled_triangles", clean.thin.duplicate},
                         {"thin_triangles", clean.thin.collapsed + clean.thin.flipped + clean.thin.dropped},
                         {"shells", clean.orientation.shells},

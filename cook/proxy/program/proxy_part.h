@@ -24,32 +24,36 @@ struct ProxySettings
     bool binds_vertices = false;
     /// Convex parts that take the place of the triangles; nothing: the triangles stay.
     std::optional<ConvexSettings> convex;
+    /// Make proxies of the meshes for which no artist made one.
+    bool makes_missing = true;
 };
 
-/// Statistics of one mesh, for the report.
+/// Statistics of one proxy, or of a mesh without one, for the report.
 struct MeshStatistics
 {
     uint32_t mesh = 0;
     std::string name;
     formats::ProxyOrigin origin = formats::ProxyOrigin::cleaned;
     uint64_t mesh_triangles = 0;
-    uint32_t triangles = 0; ///< 0: the mesh has no area, and no proxy
+    uint32_t triangles = 0; ///< 0: the mesh has no proxy
     uint32_t vertices = 0;
-    uint32_t convex_parts = 0; ///< 0: it is made of triangles
+    uint32_t convex_parts = 0; ///< sections that are one
     bool is_closed = false;
     float distance = 0;      ///< as ProxyRecord::distance
     float mesh_distance = 0; ///< as ProxyRecord::mesh_distance
+    uint64_t bytes = 0;      ///< not compressed
     CleanStatistics clean;   ///< of proxies that are cleaned
 };
 
-/// Write proxies of all meshes with area. The result depends neither on the number of threads nor, on
+/// Write proxies of all meshes with area: those that the import part has, for an artist made them, else one
+/// that is made here. The result depends neither on the number of threads nor, on
 /// processors of one class, on the machine.
 ///
 /// import_part    meshes as they were imported
 /// clusters_part  of the same source
 /// wrap_part      closed surfaces around the meshes, which become their proxies; null: proxies are cleaned
 ///                cuts
-/// errors: container_kind; those of checkHierarchy; meaning_reference where the parts are of different
+/// errors: container_kind; those of checkHierarchy and checkProxies; meaning_reference where the parts are of different
 /// sources; cannot_write
 Result<std::vector<MeshStatistics>> writeProxyPart(const formats::PackView& import_part,
                                                    const formats::PackView& clusters_part,

@@ -10,6 +10,7 @@
 #include "pipelines/profiles/assignment.h"
 #include "pipelines/profiles/command_settings.h"
 
+#include <algorithm>
 #include <charconv>
 
 namespace hearth::command
@@ -227,6 +228,21 @@ Status splitSources(const profiles::Configuration& configuration, std::vector<st
     return success();
 }
 
+/// Refuse --proxy for several sources: its files are in the folder of one.
+Status checkProxyFiles(const CookOptions& options)
+{
+    const auto is_typed = [](const settings::Values& values)
+    {
+        const Value* const files = settings::findValue(values, cookers::kImportProxies);
+        return files != nullptr && files->origin.starts_with("--proxy");
+    };
+    if (options.sources.size() > 1 && std::ranges::any_of(options.values_of_source, is_typed))
+        return Error{Issue::usage, "--proxy", "",
+                     "needs a cook of one source: which of several it is for is not said; a rule of "
+                     "hearth.toml with import.proxies says it"};
+    return success();
+}
+
 } // namespace
 
 Status applyConfiguration(const profiles::Configuration& configuration, CookOptions& options)
@@ -243,6 +259,7 @@ Status applyConfiguration(const profiles::Configuration& configuration, CookOpti
         HEARTH_TRY(checked);
         options.values_of_source.push_back(std::move(values));
     }
+    HEARTH_TRY(checkProxyFiles(options));
     options.values_of_pack = configuration.valuesOfPack();
     HEARTH_TRY(checkOptionsHaveEffect(options));
     static_cast<RunLimits&>(options) = readRunLimits(configuration);

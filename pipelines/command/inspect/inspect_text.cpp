@@ -186,6 +186,14 @@ std::string distanceText(const ProxyRecord& proxy)
     return std::isfinite(distance) ? fmt::format(", within {:.3g} m", distance) : "";
 }
 
+/// Return " (3 convex)" of a proxy with convex sections; else nothing.
+std::string convexText(const PackView& pack, const ProxyRecord& proxy)
+{
+    const auto is_convex = [](const ProxySectionRecord& section) { return section.is_convex != 0; };
+    const auto count = std::ranges::count_if(recordsInRange(pack.proxySections(), proxy.sections), is_convex);
+    return count > 0 ? fmt::format(" ({} convex)", count) : "";
+}
+
 /// Describe the proxies of meshes; nothing where there are none.
 std::string proxiesText(const PackView& pack)
 {
@@ -197,11 +205,11 @@ std::string proxiesText(const PackView& pack)
         const std::string_view name = proxy.mesh < pack.meshes().size()
                                           ? pack.text(pack.meshes()[proxy.mesh].name)
                                           : std::string_view();
-        text +=
-            fmt::format("proxy {} of mesh {} \"{}\": {}, {} triangles in {} sections, {}{}{}\n", i,
-                        proxy.mesh, printable(name), proxyOriginName(proxy.origin), proxy.indices.count / 3,
-                        proxy.sections.count, proxy.is_closed != 0 ? "closed" : "open", distanceText(proxy),
-                        proxy.bindings.count != 0 ? ", with bindings" : "");
+        text += fmt::format("proxy {} of mesh {} \"{}\": {}, {} triangles in {} sections{}, {}{}{}\n", i,
+                            proxy.mesh, printable(name), proxyOriginName(proxy.origin),
+                            proxy.indices.count / 3, proxy.sections.count, convexText(pack, proxy),
+                            proxy.is_closed != 0 ? "closed" : "open", distanceText(proxy),
+                            proxy.bindings.count != 0 ? ", with bindings" : "");
     }
     return text.empty() ? text : "\n" + text;
 }

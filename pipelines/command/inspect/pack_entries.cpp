@@ -372,8 +372,11 @@ void addProxyEntries(std::vector<PackEntry>& entries, const PackView& pack)
 {
     for (const ProxyRecord& proxy : pack.proxies())
     {
+        // the mesh of a part is in another one
         PackEntry entry{"proxy",
-                        std::string(pack.text(pack.meshes()[proxy.mesh].name)),
+                        proxy.mesh < pack.meshes().size()
+                            ? std::string(pack.text(pack.meshes()[proxy.mesh].name))
+                            : fmt::format("{}", proxy.mesh),
                         {{"origin", proxyOriginName(proxy.origin)},
                          {"triangles", std::to_string(proxy.indices.count / 3)},
                          {"closed", proxy.is_closed != 0 ? "yes" : "no"},

@@ -34,6 +34,15 @@ uint64_t sourceVertexCount(const GltfModel& model)
     return count;
 }
 
+/// Return the nodes that are not drawn, for they are levels of detail or proxies.
+std::vector<bool> joinHidden(const GltfLods& lods, const GltfProxies& proxies)
+{
+    std::vector<bool> hidden = lods.hidden;
+    for (size_t node = 0; node < hidden.size(); ++node)
+        hidden[node] = hidden[node] || proxies.hidden[node];
+    return hidden;
+}
+
 } // namespace
 
 Status importGltf(const std::string& path, const FileBytes& file, const ImportOptions& options,
@@ -52,13 +61,14 @@ Status importGltf(const std::string& path, const FileBytes& file, const ImportOp
     HEARTH_ASSIGN_OR_RETURN(const std::vector<InverseBinds> inverse_binds,
                             writeSkins(model, accessors, context));
     const GltfLods lods = findLods(model, context);
+    HEARTH_ASSIGN_OR_RETURN(const GltfProxies proxies, findProxies(model, lods, context));
     const MeshUses uses = findMeshUses(model);
     HEARTH_ASSIGN_OR_RETURN(const std::vector<MeshSummary> summaries,
-                            writeMeshes(model, uses, lods, meshes, inverse_binds, context));
+                            writeMeshes(model, uses, lods, proxies, meshes, inverse_binds, context));
     context.part.counts.vertices = sourceVertexCount(model);
     HEARTH_TRY(writeMaterials(model, buffers, context));
     HEARTH_TRY(readSky(model, buffers, context));
-    HEARTH_TRY(writeScene(model, uses, summaries, lods.hidden, accessors, context, tally));
+    HEARTH_TRY(writeScene(model, uses, summaries, joinHidden(lods, proxies), accessors, context, tally));
     HEARTH_TRY(writeAnimations(model, accessors, context, tally));
     HEARTH_TRY(writeExtras(document, container.json, model, uses, context));
     tally.report(part);

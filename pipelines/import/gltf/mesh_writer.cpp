@@ -4,6 +4,8 @@
 #include "pipelines/import/gltf/skinning.h"
 #include "pipelines/import/part/bake_transform.h"
 #include "pipelines/import/part/import_options.h"
+#include "pipelines/import/part/limit_messages.h"
+#include "pipelines/import/part/part_proxies.h"
 #include "pipelines/import/part/receiver_uvs.h"
 
 #include <algorithm>
@@ -16,6 +18,9 @@ namespace hearth::import
 namespace
 {
 
+// Maximum of triangles of all proxies of a mesh: they are in memory at once, and small by nature.
+constexpr size_t kMaxProxyTriangles = size_t{1} << 22;
+
 /// Remove joints and weights of a mesh that no skin moves: their indices refer to nothing.
 void dropInfluences(mesh::SourceMesh& mesh)
 {
@@ -26,11 +31,13 @@ void dropInfluences(mesh::SourceMesh& mesh)
 class MeshWriter
 {
 public:
-    MeshWriter(const GltfModel& model, const MeshUses& uses, const GltfLods& lods, GltfMeshReader& reader,
-               std::span<const InverseBinds> inverse_binds, const GltfContext& context)
+    MeshWriter(const GltfModel& model, const MeshUses& uses, const GltfLods& lods, const GltfProxies& proxies,
+               GltfMeshReader& reader, std::span<const InverseBinds> inverse_binds,
+               const GltfContext& context)
         : model_(model),
           uses_(uses),
           lods_(lods),
+          proxies_(proxies),
           reader_(reader),
           inverse_binds_(inverse_binds),
           context_(context),
@@ -53,12 +60,16 @@ private:
     MeshUse meshUseForLod(const GltfLodChain& chain, const GltfLod& lod) const;
     tools::LodLabel makeLabel(const GltfLod& lod) const;
     double texelSizeInMesh() const;
+    Status writeProxies(const GltfProxy& proxy, const mesh::SourceMesh& of);
+    Status writeFileProxies(const GltfProxy& proxy, const mesh::SourceMesh& of);
+    std::optional<Transform> objectFromPiece(const GltfProxy& proxy, const GltfProxyPiece& piece) const;
     std::optional<Transform> objectFromLod(const GltfLodChain& chain, const GltfLod& lod,
                                            const MeshSummary& summary) const;
 
     const GltfModel& model_;
     const MeshUses& uses_;
     const GltfLods& lods_;
+    const GltfProxies& proxies_;
     GltfMeshReader& reader_;
     std::span<const InverseBinds> inverse_binds_;
     const GltfContext& context_;
@@ -116,7 +127,7 @@ double MeshWriter::texelSizeInMesh() const
 
 Status MeshWriter::writeMesh(const MeshUse& use)
 {
-    if (lods_.lod_only[use.mesh])
+    if (lods_.lod_only[use.mesh] || proxies_.proxy_only[use.mesh])
     {
         mesh::SourceMesh empty;
         empty.name = model_.meshes[use.mesh].name;
@@ -127,7 +138,79 @@ Status MeshWriter::writeMesh(const MeshUse& use)
     if (const double texel_size = texelSizeInMesh(); texel_size > 0)
         addReceiverUvs(read.mesh, texel_size);
     summaries_.push_back(std::move(read.summary));
-    return context_.part.addMesh(read.mesh);
+    HEARTH_TRY(context_.part.addMesh(read.mesh));
+    const auto proxy = proxies_.of_mesh.find(use.mesh);
+    return proxy == proxies_.of_mesh.end() ? success() : writeProxies(proxy->second, read.mesh);
+}
+
+/// Return the transform from a proxy's vertices to its mesh. If a skin moves both, they share a bind pose.
+std::optional<Transform> MeshWriter::objectFromPiece(const GltfProxy& proxy,
+                                                     const GltfProxyPiece& piece) const
+{
+    if (piece.node == kInvalidIndex)
+        return Transform{};
+    const uint32_t skin = model_.nodes[piece.node].skin;
+    if (skin != kInvalidIndex && skin == model_.nodes[proxy.node].skin)
+        return Transform{};
+    const Transform& world_from_object = world_from_node_[proxy.node];
+    const Transform& world_from_piece = world_from_node_[piece.node];
+    if (model_.nodes[piece.node].parent == proxy.node)
+        return model_.nodes[piece.node].parent_from_node;
+    if (distance(world_from_object, world_from_piece) == 0)
+        return Transform{};
+    const std::optional<Transform> object_from_world = inverted(world_from_object);
+    return object_from_world ? std::optional(*object_from_world * world_from_piece) : std::nullopt;
+}
+
+/// Write the proxies from files of the mesh that was written last. They lie where the first node with the
+/// mesh draws it.
+Status MeshWriter::writeFileProxies(const GltfProxy& proxy, const mesh::SourceMesh& of)
+{
+    const std::optional<Transform> object_from_world = inverted(world_from_node_[proxy.node]);
+    std::vector<ProxyPiece> pieces;
+    for (const FileProxies* const file : proxy.files)
+        for (ProxyPiece piece : file->pieces)
+        {
+            if (!object_from_world || !bakeTransform(piece.mesh, *object_from_world))
+                return context_.error(Issue::usage, fmt::format("/nodes/{}", proxy.node),
+                                      fmt::format("--proxy {}: the proxy cannot be moved to the mesh of this "
+                                                  "node, whose transform has no inverse",
+                                                  file->word));
+            pieces.push_back(std::move(piece));
+        }
+    addProxies(static_cast<uint32_t>(summaries_.size()) - 1, of, pieces, context_.part);
+    return success();
+}
+
+/// Write the proxies of the mesh that was written last.
+Status MeshWriter::writeProxies(const GltfProxy& proxy, const mesh::SourceMesh& of)
+{
+    if (!proxy.files.empty())
+        return writeFileProxies(proxy, of);
+    std::vector<ProxyPiece> pieces;
+    size_t triangles = 0;
+    for (const GltfProxyPiece& piece : proxy.pieces)
+    {
+        HEARTH_ASSIGN_OR_RETURN(MeshWithSummary read, this->read({piece.mesh, kInvalidIndex}));
+        const std::string where = piece.node == kInvalidIndex ? fmt::format("/meshes/{}", piece.mesh)
+                                                              : fmt::format("/nodes/{}", piece.node);
+        triangles += read.mesh.triangleCount();
+        if (triangles > kMaxProxyTriangles)
+            return context_.error(
+                Issue::input_too_large, where,
+                describeExcess(triangles, "triangles of proxies of one mesh", kMaxProxyTriangles));
+        const std::optional<Transform> object_from_piece = objectFromPiece(proxy, piece);
+        if (!object_from_piece || !bakeTransform(read.mesh, *object_from_piece))
+            context_.part.warn(
+                Issue::dropped, where,
+                fmt::format("a proxy cannot be moved to its mesh, by a transform without inverse or to "
+                            "coordinates beyond {:g}: it is not kept",
+                            kMaxCoordinate));
+        else
+            pieces.push_back({std::move(read.mesh), piece.is_convex, where});
+    }
+    addProxies(static_cast<uint32_t>(summaries_.size()) - 1, of, pieces, context_.part);
+    return success();
 }
 
 /// Return the mesh of the part for a level. A level without a node is moved by the skin of the finer mesh.
@@ -196,12 +279,11 @@ Status MeshWriter::writeLods(const GltfLodChain& chain)
 
 } // namespace
 
-Result<std::vector<MeshSummary>> writeMeshes(const GltfModel& model, const MeshUses& uses,
-                                             const GltfLods& lods, GltfMeshReader& reader,
-                                             std::span<const InverseBinds> inverse_binds,
-                                             const GltfContext& context)
+Result<std::vector<MeshSummary>>
+writeMeshes(const GltfModel& model, const MeshUses& uses, const GltfLods& lods, const GltfProxies& proxies,
+            GltfMeshReader& reader, std::span<const InverseBinds> inverse_binds, const GltfContext& context)
 {
-    MeshWriter writer(model, uses, lods, reader, inverse_binds, context);
+    MeshWriter writer(model, uses, lods, proxies, reader, inverse_binds, context);
     for (const MeshUse& use : uses.uses)
         HEARTH_TRY(writer.writeMesh(use));
     for (const GltfLodChain& chain : lods.chains)

@@ -7,11 +7,13 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 namespace hearth::import
 {
 
 class ImagesProgram;
+struct FileProxies;
 
 /// Largest coordinate of a position. Beyond it the squares of areas leave the range of floats in the cookers.
 inline constexpr double kMaxCoordinate = 1e9;
@@ -40,6 +42,14 @@ struct ArtistImages
     ArtistImages withoutIcc() const { return {program, layer, false}; }
 };
 
+/// Treatment of the proxies that an artist made, which a source marks by their names or extras.
+enum class AuthoredProxies : uint8_t
+{
+    kept,     ///< proxies of their meshes, not drawn
+    left_out, ///< neither kept nor drawn
+    unknown,  ///< drawn, as meshes like others
+};
+
 struct ImportOptions
 {
     ImportLimits limits;
@@ -51,6 +61,9 @@ struct ImportOptions
     double receiver_texel_size = 0;
     /// Take the image-based light of a scene for the sky.
     bool takes_sky = true;
+    AuthoredProxies proxies = AuthoredProxies::kept;
+    /// Proxies from files, in place of those that the source has of the same mesh; null: none.
+    const std::vector<FileProxies>* file_proxies = nullptr;
     tools::DependencyList* reads = nullptr; ///< records the files that are read; null: not recorded
 };
 

@@ -120,6 +120,19 @@ std::string boxJson(const Box3& box)
                        : fmt::format(R"({{"min":{},"max":{}}})", pointJson(box.min), pointJson(box.max));
 }
 
+std::string proxiesJson(const proxy::ProxyTables& proxies)
+{
+    std::vector<std::string> items;
+    for (const ProxyRecord& record : proxies.proxies)
+        items.push_back(
+            fmt::format(R"({{"mesh":{},"origin":{},"triangles":{},"vertices":{},"closed":{},"distance":{},)"
+                        R"("mesh_distance":{},"bytes":{}}})",
+                        record.mesh, quoteJson(kProxyOriginNames[record.origin]), record.indices.count / 3,
+                        record.positions.count, record.is_closed != 0, record.distance, record.mesh_distance,
+                        proxy::countBytes(record)));
+    return joinItems(items);
+}
+
 void truncateText(std::string& text)
 {
     constexpr size_t kMaxLength = 300;
@@ -291,7 +304,7 @@ std::string PartBuilder::statistics() const
     std::string text = report();
     HEARTH_ASSERT(text.ends_with('}'));
     text.pop_back();
-    return text + R"(,"lit_box":)" + boxJson(litBox()) + "}";
+    return text + R"(,"lit_box":)" + boxJson(litBox()) + R"(,"proxies":)" + proxiesJson(proxies) + "}";
 }
 
 Box3 PartBuilder::litBox() const
@@ -349,6 +362,8 @@ Status PartBuilder::finish()
         HEARTH_TRY(writer_.addRecords<AuthoredLodRecord>(kChunkAuthoredLods, lods_));
     if (!extras.empty())
         HEARTH_TRY(writer_.addRecords<ExtrasRecord>(kChunkExtras, extras));
+    if (!proxies.proxies.empty())
+        HEARTH_TRY(proxies.write(writer_));
     return writer_.finish();
 }
 

@@ -4,6 +4,7 @@
 
 #include "cook/animation_compression/compress.h"
 #include "cook/mesh/source_mesh.h"
+#include "cook/proxy/surface/proxy_tables.h"
 #include "cook/tools/lod_files.h"
 #include "formats/container/container_writer.h"
 #include "formats/records/extras.h"
@@ -145,6 +146,7 @@ public:
     std::vector<float> morph_weights;
     std::vector<animation_compression::ClipStatistics>
         clip_statistics; ///< of compressed animations, for the report
+    proxy::ProxyTables proxies; ///< that an artist made
     SourceCounts counts;
     std::optional<SourceSky> sky; ///< for writeSky
 

@@ -6,6 +6,8 @@
 #include "pipelines/import/part/generate_tangents.h"
 #include "pipelines/import/part/import_options.h"
 #include "pipelines/import/part/part_builder.h"
+#include "pipelines/import/part/part_proxies.h"
+#include "pipelines/import/part/proxy_name.h"
 #include "pipelines/import/part/receiver_uvs.h"
 #include "pipelines/import/scans/obj_materials.h"
 #include "pipelines/import/scans/scan_polygons.h"
@@ -91,6 +93,22 @@ bool usesNormalMaps(const PartBuilder& part)
                        { return m.normal_texture.image != kInvalidIndex; });
 }
 
+/// Add the proxies from files, all of which are of the only mesh. errors: usage
+Status addFileProxies(const mesh::SourceMesh& mesh, const ImportOptions& options, PartBuilder& part)
+{
+    if (options.file_proxies == nullptr)
+        return success();
+    std::vector<ProxyPiece> pieces;
+    for (const FileProxies& proxies : *options.file_proxies)
+    {
+        if (!proxies.mesh.empty() && lowerProxyStem(proxies.mesh) != lowerProxyStem(mesh.name))
+            return findNoMeshError(proxies, {&mesh.name, 1});
+        pieces.insert(pieces.end(), proxies.pieces.begin(), proxies.pieces.end());
+    }
+    addProxies(0, mesh, pieces, part);
+    return success();
+}
+
 } // namespace
 
 void addOnlyInstance(const std::string& name, PartBuilder& part)
@@ -143,6 +161,7 @@ Status importScan(const std::string& path, std::span<const std::byte> bytes, con
     part.counts.faces = mesh.face_count;
     part.counts.vertices = mesh.source_vertex_count;
     HEARTH_TRY(part.addMesh(mesh));
+    HEARTH_TRY(addFileProxies(mesh, options, part));
     addOnlyInstance(mesh.name, part);
     return success();
 }

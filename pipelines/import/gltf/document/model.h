@@ -226,11 +226,21 @@ struct GltfPrimitive
     std::optional<GltfDraco> draco;
 };
 
+/// Mark in the extras of a node or mesh, hearth_proxy: true, false or "convex".
+enum class GltfProxyMark : uint8_t
+{
+    absent,
+    none,   ///< false: no proxy, whatever its name
+    proxy,  ///< true: stands for another mesh
+    convex, ///< the same, as a convex part
+};
+
 struct GltfMesh
 {
     std::string name;
     std::vector<GltfPrimitive> primitives;
     std::vector<float> weights;
+    GltfProxyMark proxy = GltfProxyMark::absent;
 };
 
 /// Shadow sphere from the extras of a node: hearth_shadow_radius, hearth_shadow_light, hearth_shadow_texels.
@@ -260,6 +270,7 @@ struct GltfNode
     GltfAttributes instancing;  ///< EXT_mesh_gpu_instancing
     std::vector<uint32_t> lods; ///< MSFT_lod: nodes with less and less detail; all exist
     std::optional<GltfShadowSphere> shadow_sphere;
+    GltfProxyMark proxy = GltfProxyMark::absent;
 };
 
 struct GltfScene

@@ -50,6 +50,24 @@ GltfAttributes readAttributes(const GltfObject& object, size_t size)
     return attributes;
 }
 
+GltfProxyMark readProxyMark(const GltfObject& object)
+{
+    const std::optional<Json> extras = object.json().find("extras");
+    const std::optional<Json> mark = extras ? extras->find("hearth_proxy") : std::nullopt;
+    if (!mark)
+        return GltfProxyMark::absent;
+    // Blender makes numbers of custom properties
+    const bool is_number = mark->isNumber() && (mark->number() == 0 || mark->number() == 1);
+    if (is_number || mark->type() == JsonType::boolean)
+        return (is_number ? mark->number() == 1 : mark->boolean()) ? GltfProxyMark::proxy
+                                                                   : GltfProxyMark::none;
+    if (mark->isString() && mark->string() == "convex")
+        return GltfProxyMark::convex;
+    object.problems().fail(Issue::gltf_extension_value, *mark,
+                           "hearth_proxy must be true, false or \"convex\"");
+    return GltfProxyMark::absent;
+}
+
 void readMeshes(const GltfObject& root, GltfModel& model)
 {
     for (const GltfObject& object : root.objects("meshes"))
@@ -59,6 +77,7 @@ void readMeshes(const GltfObject& root, GltfModel& model)
         for (const GltfObject& primitive : object.objects("primitives", Need::required))
             mesh.primitives.push_back(readPrimitive(primitive, model));
         mesh.weights = object.numberList("weights");
+        mesh.proxy = readProxyMark(object);
         model.meshes.push_back(std::move(mesh));
     }
 }

@@ -31,4 +31,7 @@ void readAnimations(const GltfObject& root, GltfModel& model);
 /// `size`.
 GltfAttributes readAttributes(const GltfObject& object, size_t size);
 
+/// Read the extra hearth_proxy of a node or mesh. errors: gltf_extension_value
+GltfProxyMark readProxyMark(const GltfObject& object);
+
 } // namespace hearth::import

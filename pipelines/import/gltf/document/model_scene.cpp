@@ -296,6 +296,7 @@ void readNodes(const GltfObject& root, size_t skin_count, GltfModel& model)
         readTransform(object, node);
         readNodeExtensions(object, model, objects.size(), node);
         readShadowSphere(object, node);
+        node.proxy = readProxyMark(object);
         model.nodes.push_back(std::move(node));
     }
     // an invalid child index has been reported, and would lead outside the array

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/proxy/clean/half_edges.h"
+#include "cook/proxy/surface/half_edges.h"
 
 #include "formats/base/disjoint_sets.h"
 #include "formats/base/double3.h"
