@@ -209,6 +209,28 @@ Json texturesJson(Json textures, const Json& texels)
     return textures;
 }
 
+/// Return the proxies of a source: those that hearth-proxy wrote, or else of the import. Names of meshes
+/// are those of the clusters.
+Json proxiesJson(const Json& import_report, const Json& proxy_report, const Json& clusters)
+{
+    Json rows = Json::array();
+    const Json meshes = listMember(clusters, "meshes");
+    for (const Json& proxy :
+         proxy_report.is_null() ? listMember(import_report, "proxies") : listMember(proxy_report, "meshes"))
+    {
+        if (proxy.value("triangles", 0) == 0)
+            continue;
+        Json row = Json::object();
+        for (const char* key :
+             {"mesh", "origin", "triangles", "vertices", "closed", "distance", "mesh_distance", "bytes"})
+            row[key] = proxy.value(key, Json());
+        const auto mesh = proxy.value("mesh", size_t{0});
+        row["name"] = mesh < meshes.size() ? meshes[mesh].value("name", "") : "";
+        rows.push_back(std::move(row));
+    }
+    return rows;
+}
+
 Json assetJson(const CookReport& cook, const Asset& asset)
 {
     Json json{{"source", cook.sources[asset.source]}, {"state", stateName(cook, asset)}};
@@ -266,6 +288,9 @@ Json assetJson(const CookReport& cook, const Asset& asset)
     if (!clusters.is_null())
         json["clusters"] = {{"meshes", listMember(clusters, "meshes")},
                             {"totals", clusters.value("totals", Json::object())}};
+    if (Json proxies = proxiesJson(import_report, parseStatistics(cook, findAction("proxy")), clusters);
+        !proxies.empty())
+        json["proxies"] = std::move(proxies);
     json["textures"] = textures;
     if (const auto sheet = cook.images.find(findAction("texels")); sheet != cook.images.end())
         json["texture_pictures"] = pngUri(sheet->second);

@@ -56,6 +56,15 @@ Json meshRow(const Json& mesh, size_t asset)
                         mesh.value("clusters", 0), mesh.value("pages", 0), levels});
 }
 
+/// Return a row: name, asset, origin, triangles, whether it is closed, the larger distance, bytes
+Json proxyRow(const Json& proxy, size_t asset)
+{
+    const double distance = std::max(proxy.value("distance", 0.0), proxy.value("mesh_distance", 0.0));
+    return Json::array({proxy.value("name", ""), asset, proxy.value("origin", ""),
+                        proxy.value("triangles", uint64_t{0}), proxy.value("closed", false), distance,
+                        proxy.value("bytes", uint64_t{0})});
+}
+
 Json getPsnr(const Json& texture, const char* key)
 {
     const Json error = texture.value(key, Json());
@@ -195,7 +204,7 @@ std::string pageData(const std::string& report_text)
                             "failures", "error"})
         if (report.contains(key))
             data[key] = report[key];
-    for (const char* key : {"assets", "meshes", "textures", "stages"})
+    for (const char* key : {"assets", "meshes", "proxies", "textures", "stages"})
         data[key] = Json::array();
     const Json assets = getElements(report, "assets");
     for (size_t i = 0; i < assets.size(); ++i)
@@ -203,6 +212,8 @@ std::string pageData(const std::string& report_text)
         data["assets"].push_back(makeAsset(assets[i]));
         for (const Json& mesh : makeMeshes(assets[i]))
             data["meshes"].push_back(meshRow(mesh, i));
+        for (const Json& proxy : getElements(assets[i], "proxies"))
+            data["proxies"].push_back(proxyRow(proxy, i));
         for (const Json& texture : getElements(assets[i], "textures"))
             data["textures"].push_back(textureRow(texture, i));
     }

@@ -294,7 +294,7 @@ TEST(Arguments, omitUnsetSettings)
     EXPECT_EQ(wordsFor("clusters", {}), (Words{"--no-discrete-lods", "--visibility"}));
     EXPECT_EQ(wordsFor("bricks", {}), Words{"--if-needed"});
     EXPECT_EQ(wordsFor("receivers", {}), Words());
-    EXPECT_EQ(wordsFor("proxy", {}), Words());
+    EXPECT_EQ(wordsFor("proxy", {}), Words{"--authored"});
     const std::vector<settings::Values> plain_source(1), cleaned_source{{{"proxy.from", {"\"clean\"", ""}}}};
     for (const char* name : {"proxy", "wrap"})
         EXPECT_FALSE(cookers::isEnabled(*cookers::findCooker(name), {}, plain_source)) << name;

@@ -53,8 +53,8 @@ struct MeshStatistics
 /// clusters_part  of the same source
 /// wrap_part      closed surfaces around the meshes, which become their proxies; null: proxies are cleaned
 ///                cuts
-/// errors: container_kind; those of checkHierarchy and checkProxies; meaning_reference where the parts are of different
-/// sources; cannot_write
+/// errors: container_kind; those of checkHierarchy and checkProxies; meaning_reference where the parts are
+/// of different sources; cannot_write
 Result<std::vector<MeshStatistics>> writeProxyPart(const formats::PackView& import_part,
                                                    const formats::PackView& clusters_part,
                                                    const formats::PackView* wrap_part,

@@ -4,6 +4,7 @@
 const named = (row, names) => Object.fromEntries(names.map((name, i) => [name, row[i]]));
 const kStage = ['stage', 'state', 'seconds', 'bytes', 'start', 'lane', 'cpu', 'peak', 'why'];
 const kMesh = ['name', 'asset', 'triangles', 'vertices', 'bytes', 'clusters', 'pages', 'levels'];
+const kProxy = ['name', 'asset', 'origin', 'triangles', 'closed', 'distance', 'bytes'];
 const kTexture = ['name', 'asset', 'width', 'height', 'mips', 'format', 'content', 'bytes', 'memory', 'half', 'halfKnown', 'placeholder', 'encoding', 'uses'];
 const kEncoding = ['role', 'error', 'p999', 'smooth', 'target', 'targetSmooth', 'holds', 'reason', 'picture', 'brightest', 'candidates'];
 
@@ -27,6 +28,10 @@ function readData() {
     mesh.asset.meshes.push(mesh);
     mesh.asset.triangles += mesh.triangles;
     return mesh;
+  });
+  data.proxies = data.proxies.map(row => {
+    const proxy = named(row, kProxy);
+    return {...proxy, asset: data.assets[proxy.asset]};
   });
   data.textures = data.textures.map(row => {
     const texture = named(row, kTexture);
@@ -71,7 +76,7 @@ function showPage() {
   const textures = texturesSection(data);
   const slow = slowSection(data, go);
   const timeline = timelineSection(data, go);
-  const parts = [failuresSection(data), totalsSection(data), sceneSection(images), assets.part, sizesSection(data, go), meshes && meshes.part, textures && textures.part,
+  const parts = [failuresSection(data), totalsSection(data), sceneSection(images), assets.part, sizesSection(data, go), meshes && meshes.part, proxiesSection(data), textures && textures.part,
                  receiversSection(data), lightSection(images), slow, timeline.part, causesSection(data), messagesSection(data, go)].filter(Boolean);
   $('main').replaceChildren(...parts);
 

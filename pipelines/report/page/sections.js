@@ -277,6 +277,21 @@ function texturesSection(data) {
 const kWithoutReceivers = {animated: 'moved by clips', deformed: 'deformed', unlit: 'unlit', transparent: 'surfaces with holes alone', no_uvs: 'without UVs',
                            flat_uvs: 'UVs without an area', uvs_outside: 'UVs outside 0 to 1', overlapping_uvs: 'UVs that overlap'};
 
+/** Lists the proxies of meshes; nothing in packs without them. */
+function proxiesSection(data) {
+  if (!data.proxies.length) return null;
+  const table = makeTable('Proxies', data.proxies, [
+    {name: 'Mesh', of: proxy => proxy.name, show: proxy => el('span', {title: proxy.name}, proxy.name || '(no name)'), width: 'minmax(130px, 2fr)'},
+    {name: 'Asset', of: proxy => proxy.asset.source, show: proxy => nameOf(proxy.asset.source), width: 'minmax(90px, 1fr)'},
+    {name: 'Origin', of: proxy => proxy.origin, show: proxy => proxy.origin, width: '92px'},
+    {name: 'Triangles', number: true, of: proxy => proxy.triangles, show: proxy => count(proxy.triangles)},
+    {name: 'Surface', of: proxy => proxy.closed ? 'closed' : 'open', show: proxy => proxy.closed ? 'closed' : 'open', width: '72px'},
+    {name: 'Distance', number: true, of: proxy => proxy.distance, show: proxy => metres(proxy.distance), tip: 'no point of the mesh or of its proxy is farther from the other'},
+    {name: 'Bytes', number: true, of: proxy => proxy.bytes, show: proxy => bytes(proxy.bytes), tip: 'before compression'},
+  ], {sort: 6, text: proxy => proxy.name + ' ' + proxy.asset.source});
+  const part = section('proxies', 'Proxies', 'simple meshes that stand for others', table.table);
+  return table.filter ? withTools(part, table.filter) : part;
+}
 /** Tells what baked light takes, and which instances have none of it; nothing where the cook made no receivers. */
 function receiversSection(data) {
   const atlas = data.receivers;
