@@ -8,6 +8,7 @@
 #include "pipelines/export/materials.h"
 #include "pipelines/export/meshes.h"
 #include "pipelines/export/omissions.h"
+#include "pipelines/export/proxies.h"
 #include "pipelines/export/skins.h"
 #include "pipelines/export/tinygltf_writer.h"
 
@@ -61,6 +62,7 @@ Result<ExportSummary> exportGltf(const PackView& pack, const ExportOptions& opti
         clips = addAnimations(document, pack, omissions);
     }
     addExtras(document, pack, {meshes, clips});
+    addProxies(document, pack, meshes, omissions);
     addPackOmissions(pack, options.has_lods, omissions);
     HEARTH_TRY(writeGlb(document, path));
     return summarize(document, omissions);

@@ -15,7 +15,7 @@ struct ExportSummary
 {
     size_t nodes = 0;
     size_t meshes = 0;
-    size_t triangles = 0; ///< of all meshes, with their levels
+    size_t triangles = 0; ///< of all meshes, with their levels and proxies
     size_t materials = 0;
     size_t images = 0;
     size_t skins = 0;

@@ -28,7 +28,6 @@ void addPackOmissions(const PackView& pack, bool has_lods, Omissions& omissions)
             omissions.add("meshes with coarser levels (--lods writes them)", mesh.levels.count > 1 ? 1 : 0);
     }
     omissions.add("instances with surroundings", pack.surroundings().size());
-    omissions.add("proxies", pack.proxies().size());
     omissions.add("bricks", pack.bricks().size());
     omissions.add("light probes", pack.probes().size());
     omissions.add("atlases of receivers", pack.receiverAtlases().size() + pack.faceAtlases().size());

@@ -1,6 +1,8 @@
-// Tests `hearth cook --proxy-from` with the real cookers.
+// Tests `hearth cook --proxy-from`, and proxies of artists on their way to glTF and back, with the real
+// cookers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
+#include "tests/support/json_schema.h"
 #include "tests/support/sandbox.h"
 
 #include <filesystem>
@@ -55,7 +57,61 @@ protected:
         return Json::parse(end.out).value();
     }
 
+    /// Write rock.gltf: a rock, its proxy of two materials, two convex parts below it, and a log without any.
+    void writeRock()
+    {
+        std::string bytes;
+        for (int corner = 0; corner < 8; ++corner)
+            for (int axis = 0; axis < 3; ++axis)
+                append(bytes, (corner >> axis & 1) != 0 ? 1.0f : -1.0f);
+        for (const int index : {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
+                                2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5})
+            append(bytes, static_cast<uint16_t>(index));
+        folder.write("rock.bin", bytes);
+        folder.write("rock.gltf",
+                     R"({"asset":{"version":"2.0"},"buffers":[{"uri":"rock.bin","byteLength":168}],
+            "bufferViews":[{"buffer":0,"byteLength":96},{"buffer":0,"byteOffset":96,"byteLength":72}],
+            "accessors":[
+                {"bufferView":0,"componentType":5126,"count":8,"type":"VEC3","min":[-1,-1,-1],"max":[1,1,1]},
+                {"bufferView":1,"componentType":5123,"count":36,"type":"SCALAR"},
+                {"bufferView":1,"componentType":5123,"count":12,"type":"SCALAR"},
+                {"bufferView":1,"byteOffset":24,"componentType":5123,"count":24,"type":"SCALAR"}],
+            "materials":[{"name":"stone"},{"name":"moss"}],
+            "meshes":[{"name":"box","primitives":[{"attributes":{"POSITION":0},"indices":1,"material":0}]},
+                {"primitives":[{"attributes":{"POSITION":0},"indices":3,"material":1},
+                               {"attributes":{"POSITION":0},"indices":2,"material":0}]},
+                {"primitives":[{"attributes":{"POSITION":0},"indices":1}]},
+                {"name":"log","primitives":[{"attributes":{"POSITION":0},"indices":1}]}],
+            "nodes":[{"name":"Rock","mesh":0,"translation":[3,0,0],"scale":[2,2,2],"children":[2,3]},
+                {"name":"rock_proxy","mesh":1,"translation":[3,0,1],"scale":[2,2,2]},
+                {"name":"UCX_Rock_01","mesh":2,"scale":[0.5,1,1],"translation":[-0.5,0,0]},
+                {"name":"UCX_Rock_02","mesh":2,"scale":[0.5,1,1],"translation":[0.5,0,0]},
+                {"name":"Log","mesh":3,"translation":[0,0,8]}],
+            "scenes":[{"nodes":[0,1,4]}],"scene":0})");
+    }
+
+    /// Return the proxies as OBJ files, one after another: positions, triangles, names of materials.
+    std::string extractProxies(size_t count)
+    {
+        std::string text;
+        for (size_t i = 0; i < count; ++i)
+        {
+            const ProgramEnd end =
+                hearth({"extract", "a.hearth", "--proxy", std::to_string(i), "-o", "proxy.obj"});
+            EXPECT_EQ(end.exit_code, 0) << end.err;
+            text += folder.read("proxy.obj");
+        }
+        return text;
+    }
+
     Sandbox folder;
+
+private:
+    template <typename T>
+    static void append(std::string& bytes, T value)
+    {
+        bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
+    }
 };
 
 } // namespace
@@ -114,7 +170,7 @@ TEST_F(CookProxies, haveASectionForEachMaterial)
     EXPECT_NE(obj.find("\ng wood\n"), std::string::npos) << obj;
     EXPECT_NE(obj.find("\ng tin_plate\n"), std::string::npos) << obj;
     const ProgramEnd glb = hearth({"extract", "a.hearth", "-o", "crate.glb"});
-    EXPECT_NE((glb.out + glb.err).find("proxies: 1"), std::string::npos) << glb.out << glb.err;
+    EXPECT_EQ((glb.out + glb.err).find("proxies"), std::string::npos) << "nothing is left out: " << glb.out;
 }
 
 TEST_F(CookProxies, belongToTheMeshesOfTheirSource)
@@ -175,6 +231,163 @@ TEST_F(CookProxies, haveConvexPartsForPhysics)
     EXPECT_TRUE(proxies[0]["sections"][1]["convex"].get<bool>());
     EXPECT_EQ(proxies[0]["sections"][1]["triangles"], 12);
     EXPECT_EQ(hearth({"verify", "a.hearth"}).exit_code, 0);
+}
+
+TEST_F(CookProxies, ofArtistsAreCarriedAndNotDrawn)
+{
+    writeRock();
+    const ProgramEnd end = cook({"rock.gltf"}, {"--report", "report.json"});
+    ASSERT_EQ(end.exit_code, 0) << end.err;
+    const Json pack = inspect();
+    EXPECT_EQ(pack["scene"]["instances"], 2) << "the rock and the log";
+    ASSERT_EQ(pack["proxies"].size(), 2u);
+    for (const Json& proxy : pack["proxies"])
+    {
+        EXPECT_EQ(proxy["origin"], "authored");
+        EXPECT_EQ(proxy["mesh"], 0);
+        EXPECT_TRUE(proxy["closed"].get<bool>());
+        EXPECT_EQ(proxy["sections"].size(), 2u);
+        EXPECT_EQ(proxy["bindings"], 0);
+    }
+    EXPECT_EQ(pack["proxies"][0]["sections"][1]["material"], 1);
+    EXPECT_FALSE(pack["proxies"][0]["sections"][1]["convex"].get<bool>());
+    EXPECT_TRUE(pack["proxies"][1]["sections"][1]["convex"].get<bool>());
+    EXPECT_EQ(hearth({"verify", "a.hearth"}).exit_code, 0);
+    const ProgramEnd text = hearth({"inspect", "a.hearth"});
+    EXPECT_NE(text.out.find("authored, 24 triangles in 2 sections (2 convex), closed"), std::string::npos)
+        << text.out;
+
+    const Json report = Json::parse(folder.read("report.json")).value();
+    EXPECT_EQ(faultOfSchema(HEARTH_SCHEMAS "/hearth.report.1.json", report), "");
+    const Json rows = report["assets"][0]["proxies"];
+    ASSERT_EQ(rows.size(), 2u);
+    EXPECT_EQ(rows[0]["name"], "box");
+    EXPECT_EQ(rows[0]["origin"], "authored");
+    EXPECT_EQ(rows[0]["bytes"], 64 + 8 * 12 + 36 * 4 + 2 * 16);
+    EXPECT_GE(rows[0]["mesh_distance"].get<double>(), 0.5) << "a metre along z, at twice the size";
+    EXPECT_LE(rows[0]["mesh_distance"].get<double>(), 0.55);
+}
+
+TEST_F(CookProxies, ofArtistsGoBeforeThoseThatAreMade)
+{
+    writeRock();
+    ASSERT_EQ(cook({"rock.gltf"}, {"--proxy-from", "clean", "--report", "report.json"}).exit_code, 0);
+    Json proxies = inspect()["proxies"];
+    ASSERT_EQ(proxies.size(), 3u);
+    EXPECT_EQ(proxies[1]["origin"], "authored");
+    EXPECT_EQ(proxies[2]["origin"], "cleaned");
+    EXPECT_EQ(proxies[2]["mesh"], 3) << "the log";
+    EXPECT_EQ(Json::parse(folder.read("report.json")).value()["assets"][0]["proxies"].size(), 3u);
+
+    ASSERT_EQ(cook({"rock.gltf"}, {"--proxy-bindings"}).exit_code, 0);
+    proxies = inspect()["proxies"];
+    ASSERT_EQ(proxies.size(), 2u) << "none is made";
+    EXPECT_GE(proxies[1]["bindings"].get<int>(), 8);
+
+    ASSERT_EQ(cook({"rock.gltf"}, {"--proxy-from", "source"}).exit_code, 0);
+    const Json pack = inspect();
+    EXPECT_FALSE(pack.contains("proxies"));
+    EXPECT_EQ(pack["scene"]["instances"], 2) << "they are not drawn either";
+}
+
+TEST_F(CookProxies, comeBackFromGltfAsTheyWere)
+{
+    writeRock();
+    ASSERT_EQ(cook({"rock.gltf"}, {}).exit_code, 0);
+    const Json first = inspect();
+    const std::string surfaces = extractProxies(2);
+    size_t nodes = 0;
+    for (int turn = 0; turn < 2; ++turn)
+    {
+        const ProgramEnd end = hearth({"extract", "a.hearth", "-o", "rock.glb"});
+        ASSERT_EQ(end.exit_code, 0) << end.err;
+        EXPECT_EQ(end.out.find("prox"), std::string::npos) << end.out;
+        ASSERT_EQ(cook({"rock.glb"}, {}).exit_code, 0);
+        const Json again = inspect();
+        EXPECT_EQ(again["scene"]["instances"], 2);
+        EXPECT_EQ(again["proxies"].dump(), first["proxies"].dump());
+        EXPECT_EQ(extractProxies(2), surfaces);
+        EXPECT_TRUE(turn == 0 || again["scene"]["nodes"] == nodes) << "nodes do not pile up";
+        nodes = again["scene"]["nodes"].get<size_t>();
+    }
+}
+
+TEST_F(CookProxies, thatWereMadeComeBackFromGltfAsThoseOfArtists)
+{
+    ASSERT_EQ(cook({"box.obj"}, {"--proxy-from", "clean"}).exit_code, 0);
+    const std::string box = extractProxies(1);
+    ASSERT_EQ(hearth({"extract", "a.hearth", "-o", "box.glb"}).exit_code, 0);
+    ASSERT_EQ(cook({"box.glb"}, {}).exit_code, 0);
+    EXPECT_EQ(inspect()["proxies"][0]["origin"], "authored");
+    EXPECT_EQ(extractProxies(1), box);
+    EXPECT_EQ(inspect()["scene"]["instances"], 1);
+
+    // the wall of the crate is joined with its floor again: vertices at one place become one
+    ASSERT_EQ(cook({"crate.obj"}, {"--proxy-from", "clean"}).exit_code, 0);
+    const Json made = inspect()["proxies"];
+    ASSERT_EQ(hearth({"extract", "a.hearth", "-o", "crate.glb"}).exit_code, 0);
+    ASSERT_EQ(cook({"crate.glb"}, {}).exit_code, 0);
+    const Json read = inspect()["proxies"];
+    ASSERT_EQ(read.size(), 1u);
+    EXPECT_EQ(read[0]["sections"].dump(), made[0]["sections"].dump());
+    EXPECT_EQ(read[0]["closed"], made[0]["closed"]);
+    EXPECT_EQ(read[0]["vertices"].get<int>(), made[0]["vertices"].get<int>() - 2);
+}
+
+TEST_F(CookProxies, ofFilesAreOfTheOnlyMeshOrOfOneThatIsNamed)
+{
+    writeRock();
+    folder.write("hull.obj", "v 2 0 0\nv 4 0 0\nv 3 2 0\nv 3 1 -2\nf 1 2 3\nf 2 1 4\nf 3 2 4\nf 1 3 4\n");
+    // a scan has one mesh
+    ProgramEnd end = cook({"box.obj"}, {"--proxy", "hull.obj"});
+    ASSERT_EQ(end.exit_code, 0) << end.err;
+    Json proxies = inspect()["proxies"];
+    ASSERT_EQ(proxies.size(), 1u);
+    EXPECT_EQ(proxies[0]["origin"], "authored");
+    EXPECT_EQ(proxies[0]["triangles"], 4);
+    EXPECT_NE(extractProxies(1).find("v 4 0 0\n"), std::string::npos);
+
+    // in place of those of the source, by the name of its mesh; the rock stands at x = 3 at twice its size
+    end = cook({"rock.gltf"}, {"--proxy", "BOX=hull.obj"});
+    ASSERT_EQ(end.exit_code, 0) << end.err;
+    proxies = inspect()["proxies"];
+    ASSERT_EQ(proxies.size(), 1u);
+    EXPECT_EQ(proxies[0]["mesh"], 0);
+    EXPECT_NE(extractProxies(1).find("v 0.5 0 0\n"), std::string::npos) << extractProxies(1);
+
+    // a rule says it for one of several sources; the file is an input of its cook
+    folder.write("hearth.toml", "[[rule]]\nmatch = \"box.obj\"\nimport.proxies = [\"UCX_hull.obj\"]\n");
+    folder.write("UCX_hull.obj", folder.read("hull.obj"));
+    end = cook({"box.obj", "crate.obj"}, {"--config", "hearth.toml"});
+    ASSERT_EQ(end.exit_code, 0) << end.err;
+    proxies = inspect()["proxies"];
+    ASSERT_EQ(proxies.size(), 1u);
+    EXPECT_TRUE(proxies[0]["sections"][0]["convex"].get<bool>());
+    folder.write("UCX_hull.obj", folder.read("box.obj"));
+    ASSERT_EQ(cook({"box.obj", "crate.obj"}, {"--config", "hearth.toml"}).exit_code, 0);
+    EXPECT_EQ(inspect()["proxies"][0]["triangles"], 12);
+}
+
+TEST_F(CookProxies, E1000_filesOfNoMesh)
+{
+    writeRock();
+    const auto expectFault = [&](const std::vector<std::string>& sources,
+                                 const std::vector<std::string>& options, const std::string& text,
+                                 int exit_code = 2)
+    {
+        const ProgramEnd end = cook(sources, options);
+        EXPECT_EQ(end.exit_code, exit_code) << end.err;
+        EXPECT_NE(end.err.find(text), std::string::npos) << text << " is not in: " << end.err;
+        EXPECT_FALSE(std::filesystem::exists(folder / "a.hearth"));
+    };
+    expectFault({"rock.gltf"}, {"--proxy", "box.obj"}, "which mesh it is for is not said");
+    expectFault({"rock.gltf"}, {"--proxy", "Rok=box.obj"}, "the source draws no mesh \"Rok\"");
+    expectFault({"rock.gltf"}, {"--proxy", "Rok=box.obj"}, "box, log, rock");
+    expectFault({"box.obj"}, {"--proxy", "crate=crate.obj"}, "the source draws no mesh \"crate\"");
+    expectFault({"box.obj"}, {"--proxy", "=crate.obj"}, "must be a file, or the name");
+    expectFault({"box.obj"}, {"--proxy", "lost.obj"}, "lost.obj", 66);
+    expectFault({"box.obj", "crate.obj"}, {"--proxy", "box.obj"}, "needs a cook of one source");
+    expectFault({"box.obj"}, {"--proxy", "crate.obj", "--proxy-from", "source"}, "leaves proxies out");
 }
 
 TEST_F(CookProxies, E1000_noProxyOfThatNumber)
