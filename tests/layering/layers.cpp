@@ -94,7 +94,7 @@ const std::vector<Layer>& layers()
         {"cook/proxy/clean",
          {"formats", "cook/mesh", "cook/sampling", "cook/ray_scene", "cook/proxy/surface"}},
         {"cook/proxy/convex",
-         {"formats", "cook/mesh", "cook/ray_scene", "cook/proxy/surface", "cook/proxy/clean"}},
+         {"formats", "cook/mesh", "cook/ray_scene", "cook/proxy/surface"}},
         {"cook/proxy/program",
          {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/mesh", "cook/proxy/surface",
           "cook/proxy/clean", "cook/proxy/convex"}},
