@@ -33,6 +33,18 @@ Result<FileProxies> parseWord(const std::string& word)
     return proxies;
 }
 
+/// Resolve the path of a file. errors: those of AssetFolder::locate, which say from where paths count
+Result<std::string> locateFile(const AssetFolder& folder, const std::string& file)
+{
+    Result<std::string> path = folder.locate(file);
+    if (path.ok())
+        return path;
+    Error error = path.error();
+    error.detail += fmt::format("{}a file of --proxy is sought in the folder of {}",
+                                error.detail.empty() ? "" : "; ", folder.assetName());
+    return error;
+}
+
 bool isCalledConvex(std::string_view name)
 {
     const std::optional<ProxyName> parsed = parseProxyName(name);
@@ -69,7 +81,7 @@ Result<std::vector<FileProxies>> readProxyFiles(std::span<const std::string> wor
     for (const std::string& word : words)
     {
         HEARTH_ASSIGN_OR_RETURN(FileProxies proxies, parseWord(word));
-        HEARTH_ASSIGN_OR_RETURN(const std::string path, folder.locate(proxies.file));
+        HEARTH_ASSIGN_OR_RETURN(const std::string path, locateFile(folder, proxies.file));
         const std::string part_path = fmt::format("{}/proxy_{}.part", temporary_folder, all.size());
         HEARTH_ASSIGN_OR_RETURN(PartBuilder file, PartBuilder::create(part_path, path));
         HEARTH_TRY(readSource(path, of_files, file));

@@ -347,6 +347,16 @@ TEST_F(CookProxies, ofFilesAreOfTheOnlyMeshOrOfOneThatIsNamed)
     EXPECT_EQ(proxies[0]["triangles"], 4);
     EXPECT_NE(extractProxies(1).find("v 4 0 0\n"), std::string::npos);
 
+    // all that a glTF file draws, whatever names say of other meshes
+    end = cook({"box.obj"}, {"--proxy", "rock.gltf"});
+    ASSERT_EQ(end.exit_code, 0) << end.err;
+    proxies = inspect()["proxies"];
+    ASSERT_EQ(proxies.size(), 2u);
+    EXPECT_EQ(proxies[0]["triangles"], 36) << "the rock, its proxy, the log";
+    EXPECT_EQ(proxies[1]["sections"].size(), 2u) << "UCX_Rock_01 and 02";
+    EXPECT_TRUE(proxies[1]["sections"][0]["convex"].get<bool>());
+    EXPECT_EQ(end.err.find("rock"), std::string::npos) << end.err;
+
     // in place of those of the source, by the name of its mesh; the rock stands at x = 3 at twice its size
     end = cook({"rock.gltf"}, {"--proxy", "BOX=hull.obj"});
     ASSERT_EQ(end.exit_code, 0) << end.err;
@@ -385,7 +395,10 @@ TEST_F(CookProxies, E1000_filesOfNoMesh)
     expectFault({"rock.gltf"}, {"--proxy", "Rok=box.obj"}, "box, log, rock");
     expectFault({"box.obj"}, {"--proxy", "crate=crate.obj"}, "the source draws no mesh \"crate\"");
     expectFault({"box.obj"}, {"--proxy", "=crate.obj"}, "must be a file, or the name");
-    expectFault({"box.obj"}, {"--proxy", "lost.obj"}, "lost.obj", 66);
+    expectFault({"box.obj"}, {"--proxy", "lost.obj"}, "lost.obj: error: ", 66);
+    expectFault({"box.obj"}, {"--proxy", "lost.obj"}, "is sought in the folder of box.obj", 66);
+    expectFault({"box.obj"}, {"--proxy", "../box.obj"}, "is sought in the folder of box.obj", 65);
+    expectFault({"box.obj"}, {"--proxy-error", "0.1"}, "has no effect: proxy.from of no source needs it");
     expectFault({"box.obj", "crate.obj"}, {"--proxy", "box.obj"}, "needs a cook of one source");
     expectFault({"box.obj"}, {"--proxy", "crate.obj", "--proxy-from", "source"}, "leaves proxies out");
 }

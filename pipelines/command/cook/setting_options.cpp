@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <fmt/format.h>
 
 namespace hearth::command
 {
@@ -72,8 +73,11 @@ Status checkOptionsHaveEffect(const graph::CookSettings& settings)
             const Value* value = settings::findValue(settings.values_of_pack, setting.key);
             if (value != nullptr && setting.key != cooker.switched_by && value->text != "false" &&
                 value->origin.starts_with("--"))
-                return Error{Issue::usage, value->origin, "",
-                             "has no effect: " + std::string(cooker.switched_by) + " is off"};
+                return Error{
+                    Issue::usage, value->origin, "",
+                    cooker.runsFor == nullptr
+                        ? fmt::format("has no effect: {} is off", cooker.switched_by)
+                        : fmt::format("has no effect: {} of no source needs it", cooker.switched_by)};
         }
     }
     return success();

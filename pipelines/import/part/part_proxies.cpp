@@ -22,7 +22,7 @@ namespace
 // their meshes, as wraps do, where finer bounds take seconds.
 constexpr double kEnough = 5e-3;
 
-Surface readSurface(const mesh::SourceMesh& mesh)
+Surface toSurface(const mesh::SourceMesh& mesh)
 {
     Surface surface{mesh.positions, mesh.indices, mesh.triangle_materials};
     surface.materials.resize(mesh.triangleCount(), kInvalidIndex);
@@ -30,7 +30,7 @@ Surface readSurface(const mesh::SourceMesh& mesh)
 }
 
 /// Append the triangles and positions of a surface.
-void append(Surface& to, const Surface& from)
+void appendSurface(Surface& to, const Surface& from)
 {
     const auto first = static_cast<uint32_t>(to.positions.size());
     to.positions.insert(to.positions.end(), from.positions.begin(), from.positions.end());
@@ -39,7 +39,7 @@ void append(Surface& to, const Surface& from)
     to.materials.insert(to.materials.end(), from.materials.begin(), from.materials.end());
 }
 
-std::string describe(ConvexFault fault)
+std::string describeFault(ConvexFault fault)
 {
     switch (fault)
     {
@@ -63,7 +63,7 @@ MadeProxy makeProxy(std::span<const ProxyPiece> pieces)
     MadeProxy made;
     for (const ProxyPiece& piece : pieces)
         if (!piece.is_convex)
-            append(made.surface, readSurface(piece.mesh));
+            appendSurface(made.surface, toSurface(piece.mesh));
     weldByPosition(made.surface);
     sortByMaterial(made.surface);
     made.sections = makeMaterialSections(made.surface);
@@ -80,7 +80,7 @@ MadeProxy makeConvexProxy(std::span<const ProxyPiece> pieces, PartBuilder& part)
     {
         if (!piece.is_convex)
             continue;
-        Surface solid = readSurface(piece.mesh);
+        Surface solid = toSurface(piece.mesh);
         weldByPosition(solid);
         sortByMaterial(solid);
         if (solid.triangleCount() == 0)
@@ -90,14 +90,14 @@ MadeProxy makeConvexProxy(std::span<const ProxyPiece> pieces, PartBuilder& part)
             part.warn(Issue::degraded, piece.where,
                       fmt::format("the convex part \"{}\" of a proxy {}; until then it is a part that is not "
                                   "convex",
-                                  piece.mesh.name, describe(fault)));
+                                  piece.mesh.name, describeFault(fault)));
         made.is_closed = made.is_closed && isClosed(solid);
         const auto first = static_cast<uint32_t>(made.surface.triangleCount());
         const auto count = static_cast<uint32_t>(solid.triangleCount());
         const uint32_t material =
             solid.materials.front() == solid.materials.back() ? solid.materials.front() : kInvalidIndex;
         made.sections.push_back({{first, count}, material, fault == ConvexFault::none ? 1u : 0u});
-        append(made.surface, solid);
+        appendSurface(made.surface, solid);
     }
     return made;
 }
@@ -123,7 +123,7 @@ Error findNoMeshError(const FileProxies& proxies, std::span<const std::string> n
 void addProxies(uint32_t mesh, const mesh::SourceMesh& of, std::span<const ProxyPiece> pieces,
                 PartBuilder& part)
 {
-    Surface surface = readSurface(of);
+    Surface surface = toSurface(of);
     weldByPosition(surface);
     if (surface.triangleCount() == 0)
         return;
