@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 
 namespace hearth::cli
 {
@@ -24,6 +25,18 @@ void addCheck(CLI::Option& option, CLI::Validator check, const std::string& type
         option.type_name(type_name);
     }
     option.check(std::move(check));
+}
+
+/// Refuse NaN, which compares as neither below nor above the ends of a range.
+void refuseNan(CLI::Option& option)
+{
+    option.check(
+        [](const std::string& value)
+        {
+            double number = 0;
+            const bool is_nan = CLI::detail::lexical_cast(value, number) && std::isnan(number);
+            return is_nan ? "Value " + value + " not in range: it is not a number" : std::string();
+        });
 }
 
 std::vector<std::string> optionNames(const CLI::Option& option)
@@ -109,12 +122,14 @@ Option& Option::range(uint64_t min, uint64_t max, const std::string& type_name)
 Option& Option::range(double min, double max, const std::string& type_name)
 {
     addCheck(*option_, CLI::Range(min, max), type_name);
+    refuseNan(*option_);
     return *this;
 }
 
 Option& Option::positive(const std::string& type_name)
 {
     addCheck(*option_, CLI::PositiveNumber, type_name);
+    refuseNan(*option_);
     return *this;
 }
 

@@ -238,6 +238,9 @@ TEST(CommandLine, holdsValuesToTheirRange)
                                                         {"--small", "0"},
                                                         {"--large", "1099511627777"},
                                                         {"--number", "0.6"},
+                                                        {"--number", "nan"},
+                                                        {"--number", "-NaN"},
+                                                        {"--distance", "nan"},
                                                         {"--distance", "0"}};
     for (const auto& [option, value] : wrong)
         EXPECT_THAT(getFault(command_line, {option, value}), HasSubstr("not in range")) << option;
