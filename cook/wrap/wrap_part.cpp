@@ -9,9 +9,12 @@
 #include <tbb/parallel_pipeline.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <fmt/format.h>
+#include <map>
 #include <memory>
+#include <numeric>
 
 namespace hearth::wrap
 {
@@ -21,30 +24,70 @@ namespace
 
 constexpr size_t kMaxListedPairs = 1000;
 
-struct Wrapped
-{
-    Result<mesh::SourceMesh> mesh;
-    WrapStatistics statistics;
-};
-
-Wrapped wrapOne(const Result<mesh::SourceMesh>& source, uint32_t index, const std::string& file,
-                const WrapOptions& options)
-{
-    if (!source.ok())
-        return {source.error(), {}};
-    const double start = threadSeconds();
-    WrapStatistics statistics{.name = source.value().name,
-                              .source_triangles = static_cast<uint32_t>(source.value().triangleCount())};
-    Result<mesh::SourceMesh> mesh = wrapMesh(source.value(), options, file, index);
-    if (mesh.ok())
-        statistics.triangles = static_cast<uint32_t>(mesh.value().triangleCount());
-    statistics.seconds = threadSeconds() - start;
-    return {std::move(mesh), std::move(statistics)};
-}
-
 bool hasMesh(const formats::ContainerReader& part, uint32_t index)
 {
     return part.find(formats::kChunkSourceMesh, index) != nullptr;
+}
+
+/// Read a mesh, without its triangles if an artist made a proxy for it: it needs no wrap.
+Result<mesh::SourceMesh> readMesh(const formats::PackView& part, uint32_t index)
+{
+    HEARTH_ASSIGN_OR_RETURN(mesh::SourceMesh mesh, mesh::readSourceMesh(part.container(), index));
+    if (std::ranges::binary_search(part.proxies(), index, {}, &formats::ProxyRecord::mesh))
+    {
+        mesh.indices.clear();
+        mesh.triangle_materials.clear();
+    }
+    return mesh;
+}
+
+/// Meshes of a part that share a wrap: they have the same positions and triangles, in the same order.
+struct SharedWraps
+{
+    std::vector<uint32_t> first_of_mesh; ///< the first mesh of that shape, which may be the mesh itself
+    std::vector<uint32_t> last_of_first; ///< the last mesh of the shape of a first mesh
+};
+
+Result<SharedWraps> findSharedWraps(const formats::PackView& part)
+{
+    SharedWraps shared;
+    std::map<std::array<uint64_t, 2>, uint32_t> first_of_shape; // by hashes
+    for (uint32_t index = 0; hasMesh(part.container(), index); ++index)
+    {
+        HEARTH_ASSIGN_OR_RETURN(const mesh::SourceMesh mesh, readMesh(part, index));
+        const std::array<uint64_t, 2> shape{formats::hashBytes(std::as_bytes(std::span(mesh.positions))),
+                                            formats::hashBytes(std::as_bytes(std::span(mesh.indices)))};
+        const uint32_t first = first_of_shape.emplace(shape, index).first->second;
+        shared.first_of_mesh.push_back(first);
+        shared.last_of_first.push_back(index);
+        shared.last_of_first[first] = index;
+    }
+    return shared;
+}
+
+/// Wrap the shape of a mesh. The result has the numbers of source triangles in place of materials, for all
+/// meshes of the shape.
+Result<mesh::SourceMesh> wrapShape(mesh::SourceMesh& source, uint32_t index, const std::string& file,
+                                   const WrapOptions& options)
+{
+    std::vector<uint32_t> numbers(source.triangleCount());
+    std::iota(numbers.begin(), numbers.end(), 0u);
+    source.triangle_materials.swap(numbers);
+    Result<mesh::SourceMesh> shape = wrapMesh(source, options, file, index);
+    source.triangle_materials.swap(numbers);
+    return shape;
+}
+
+/// Return the wrap of a mesh.
+///
+/// shape  wrapShape of a mesh of its shape
+mesh::SourceMesh makeWrap(const mesh::SourceMesh& shape, const mesh::SourceMesh& source)
+{
+    mesh::SourceMesh wrap = shape;
+    wrap.name = source.name;
+    for (uint32_t& material : wrap.triangle_materials)
+        material = source.triangle_materials[material];
+    return wrap;
 }
 
 } // namespace
@@ -56,47 +99,66 @@ Result<std::vector<WrapStatistics>> wrapPart(const std::string& import_path, con
     {
         uint32_t index;
         Result<mesh::SourceMesh> source;
+        std::optional<Result<mesh::SourceMesh>> shape; ///< of the first mesh of its shape
+        double seconds = 0;
     };
     HEARTH_ASSIGN_OR_RETURN(const formats::PackView part, tools::openPart(import_path));
+    HEARTH_ASSIGN_OR_RETURN(const SharedWraps shared, findSharedWraps(part));
     HEARTH_ASSIGN_OR_RETURN(formats::ContainerWriter writer,
                             formats::ContainerWriter::create(output_path, formats::ContainerKind::part));
     std::vector<WrapStatistics> statistics;
+    std::map<uint32_t, mesh::SourceMesh> shapes; // of first meshes of which copies follow
     Status status = success();
     std::atomic<bool> has_failed = false;
     uint32_t next = 0;
     const auto load = [&](tbb::flow_control& flow) -> std::shared_ptr<Work>
     {
-        if (has_failed || !hasMesh(part.container(), next))
+        if (has_failed || next == shared.first_of_mesh.size())
         {
             flow.stop();
             return nullptr;
         }
         const uint32_t index = next++;
-        auto work = std::make_shared<Work>(Work{index, mesh::readSourceMesh(part.container(), index)});
-        // a mesh for which an artist made a proxy needs no wrap
-        if (work->source.ok() &&
-            std::ranges::binary_search(part.proxies(), index, {}, &formats::ProxyRecord::mesh))
-            work->source.value().indices.clear();
+        return std::make_shared<Work>(Work{index, readMesh(part, index), {}});
+    };
+    const auto wrap = [&](std::shared_ptr<Work> work)
+    {
+        if (work->source.ok() && shared.first_of_mesh[work->index] == work->index)
+        {
+            const double start = threadSeconds();
+            work->shape = wrapShape(work->source.value(), work->index, import_path, options);
+            work->seconds = threadSeconds() - start;
+        }
         return work;
     };
-    const auto wrap = [&](const std::shared_ptr<Work>& work)
-    { return std::make_shared<Wrapped>(wrapOne(work->source, work->index, import_path, options)); };
-    const auto write = [&](const std::shared_ptr<Wrapped>& wrapped)
+    const auto writeWrap = [&](Work& work) -> Status
     {
-        if (has_failed)
-            return;
-        status = wrapped->mesh.ok() ? mesh::writeSourceMesh(writer, static_cast<uint32_t>(statistics.size()),
-                                                            wrapped->mesh.value())
-                                    : Status(wrapped->mesh.error());
-        has_failed = !status.ok();
-        statistics.push_back(std::move(wrapped->statistics));
+        HEARTH_ASSIGN_OR_RETURN(const mesh::SourceMesh source, std::move(work.source));
+        const uint32_t first = shared.first_of_mesh[work.index];
+        if (work.shape)
+        {
+            HEARTH_ASSIGN_OR_RETURN(shapes[first], *std::move(work.shape));
+        }
+        const mesh::SourceMesh wrap = makeWrap(shapes.at(first), source);
+        if (shared.last_of_first[first] == work.index)
+            shapes.erase(first);
+        statistics.push_back({.name = source.name,
+                              .source_triangles = static_cast<uint32_t>(source.triangleCount()),
+                              .triangles = static_cast<uint32_t>(wrap.triangleCount()),
+                              .seconds = work.seconds});
+        return mesh::writeSourceMesh(writer, work.index, wrap);
+    };
+    const auto write = [&](const std::shared_ptr<Work>& work)
+    {
+        if (!has_failed)
+            status = writeWrap(*work);
+        has_failed = has_failed || !status.ok();
     };
     tbb::parallel_pipeline(
         tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism),
         tbb::make_filter<void, std::shared_ptr<Work>>(tbb::filter_mode::serial_in_order, load) &
-            tbb::make_filter<std::shared_ptr<Work>, std::shared_ptr<Wrapped>>(tbb::filter_mode::parallel,
-                                                                              wrap) &
-            tbb::make_filter<std::shared_ptr<Wrapped>, void>(tbb::filter_mode::serial_in_order, write));
+            tbb::make_filter<std::shared_ptr<Work>, std::shared_ptr<Work>>(tbb::filter_mode::parallel, wrap) &
+            tbb::make_filter<std::shared_ptr<Work>, void>(tbb::filter_mode::serial_in_order, write));
     HEARTH_TRY(std::move(status));
     HEARTH_TRY(writer.finish());
     return statistics;

@@ -12,11 +12,12 @@ struct WrapStatistics
     std::string name;
     uint32_t source_triangles = 0;
     uint32_t triangles = 0; ///< 0: no triangle of the source has an area
-    double seconds = 0;     ///< processor time
+    double seconds = 0;     ///< processor time; 0: it has the wrap of an earlier mesh
 };
 
-/// Wrap each mesh (chunk SMSH) of an import part, and write them as chunks SMSH of the same numbers. One
-/// of a mesh for which the part has a proxy is empty. The bytes do not depend on the number of threads.
+/// Wrap each mesh (chunk SMSH) of an import part, and write them as chunks SMSH of the same numbers. Meshes
+/// with the same positions and triangles are wrapped once; the wrap of a mesh for which the part has a proxy
+/// is empty. The bytes do not depend on the number of threads.
 /// returns  statistics for each mesh. errors: those of openPart, readSourceMesh, wrapMesh and ContainerWriter
 Result<std::vector<WrapStatistics>> wrapPart(const std::string& import_path, const std::string& output_path,
                                              const WrapOptions& options);

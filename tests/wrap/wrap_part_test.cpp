@@ -116,6 +116,39 @@ TEST(WrapPart, MeshesKeepTheirNumbersAndNames)
     EXPECT_EQ(part.value().find(formats::kChunkSourceMesh, static_cast<uint32_t>(meshes.size())), nullptr);
 }
 
+TEST(WrapPart, WrapsMeshesOfOneShapeOnce)
+{
+    mesh::SourceMesh box = shapes::blocks(3);
+    box.name = "box";
+    mesh::SourceMesh copy = box;
+    copy.name = "copy";
+    copy.triangle_materials.assign(copy.triangleCount(), 7);
+    mesh::SourceMesh larger = box;
+    for (Float3& position : larger.positions)
+        position = position * 2;
+    Sandbox sandbox;
+    writePart(sandbox / "in.part", {box, larger, copy, box});
+    const auto written = wrap::wrapPart(sandbox / "in.part", sandbox / "out.part", {.alpha = 0.05});
+    ASSERT_TRUE(written.ok());
+    const auto part = formats::ContainerReader::open(sandbox / "out.part", formats::Check::structure);
+    ASSERT_TRUE(part.ok());
+    std::vector<uint64_t> hashes;
+    for (uint32_t i = 0; i < 4; ++i)
+    {
+        EXPECT_EQ(written.value()[i].seconds > 0, i < 2) << i;
+        const auto mesh = mesh::readSourceMesh(part.value(), i);
+        ASSERT_TRUE(mesh.ok());
+        hashes.push_back(hashMesh(mesh.value()));
+        EXPECT_EQ(mesh.value().name, i == 2 ? "copy" : "box");
+        EXPECT_EQ(
+            mesh.value().triangle_materials,
+            std::vector<uint32_t>(mesh.value().triangleCount(), i == 2 ? 7 : box.triangle_materials[0]));
+    }
+    EXPECT_NE(hashes[1], hashes[0]);
+    EXPECT_EQ(hashes[2], hashes[0]);
+    EXPECT_EQ(hashes[3], hashes[0]);
+}
+
 TEST(WrapProgram, WrapsAndWarnsOfMeshesWithoutArea)
 {
     Sandbox sandbox;
