@@ -14,7 +14,7 @@ HEARTH_SHARED_BEGIN
 HEARTH_CONSTANT uint kSetScene = 0;
 HEARTH_CONSTANT uint kSetMaterial = 1;
 HEARTH_CONSTANT uint kSetAttachments = 2; ///< material depth and shading
-HEARTH_CONSTANT uint kSetBins = 2; ///< visibility pass and shadow casters
+HEARTH_CONSTANT uint kSetBins = 2;        ///< visibility pass and shadow casters
 
 /// Bindings of the scene. Seven storage buffers in the vertex stage, to which each set 2 adds one, and
 /// eight in the fragment stage, which is the limit of the renderer.
@@ -76,8 +76,8 @@ HEARTH_CONSTANT uint kSetTiles = 1;     ///< material tiles
 HEARTH_CONSTANT uint kSetClusterAttachments = 1;
 
 /// Bindings of the tables: a table has the same one in every pass, and a pass has those that it uses
-/// (runtime/gpu/scene/scene_tables.h).
-HEARTH_CONSTANT uint kTableFrame = 0; ///< FrameView, a uniform block; all others are storage buffers
+/// (runtime/gpu/scene/scene_tables.h). All but uniform blocks are storage buffers.
+HEARTH_CONSTANT uint kTableFrame = 0; ///< FrameView, a uniform block
 HEARTH_CONSTANT uint kTableInstances = 1;
 HEARTH_CONSTANT uint kTableStates = 2;
 HEARTH_CONSTANT uint kTableItems = 3;
@@ -99,6 +99,13 @@ HEARTH_CONSTANT uint kTableGroupItems = 18;
 HEARTH_CONSTANT uint kTablePageRequests = 19;
 HEARTH_CONSTANT uint kTableDeformation = 20;
 HEARTH_CONSTANT uint kTableStatistics = 21;
+HEARTH_CONSTANT uint kTableShadows =
+    22; ///< ShadowBlock, a uniform block; as the next ones of proxies that cast
+HEARTH_CONSTANT uint kTableProxies = 23;
+HEARTH_CONSTANT uint kTableProxyDraw = 24;
+HEARTH_CONSTANT uint kTableProxyChunks = 25;
+HEARTH_CONSTANT uint kTableProxyPositions = 26;
+HEARTH_CONSTANT uint kTableProxyIndices = 27;
 
 /// Set of word copies: they have no other.
 HEARTH_CONSTANT uint kSetWordCopy = 0;

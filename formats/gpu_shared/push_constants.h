@@ -70,6 +70,12 @@ struct CullStatisticsPush
     uint instance_count; ///< 0 where the other pass counts them
 };
 
+/// Listing of proxies that cast shadows.
+struct ListProxiesPush
+{
+    uint instance_count;
+};
+
 struct SkinningPlanPush
 {
     uint bin_count;

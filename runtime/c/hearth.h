@@ -243,6 +243,15 @@ typedef void (*hearth_read_page_callback)(void* user, uint32_t page, void* desti
 /* End a read; `ok` is 0 if it failed. Do not write to the destination afterwards. On any thread. */
 HEARTH_API void hearth_read_done(hearth_page_read read, int ok);
 
+/* Geometry that casts shadows (1.8). */
+enum
+{
+    HEARTH_CASTERS_CLUSTERS = 0, /* the levels that a frame draws, or coarser ones (error_bias) */
+    /* The proxy of each mesh that has one, is rigid, and has opaque lit materials alone: a shadow is off by
+     * no more than the distances of hearth_proxy. */
+    HEARTH_CASTERS_PROXIES = 1
+};
+
 /* Shadow maps of the lights: `splits` for a sun, one for a spot, six for a point light.
  * See runtime/gpu/README.md, "Shadows". */
 typedef struct hearth_shadow_options
@@ -263,11 +272,12 @@ typedef struct hearth_shadow_options
     /* since 1.8: bits of the maps' depths, 32, or 16: half the memory where that does not show, else 32 bits
      * (hearth_shadow_counters.depth_bits) */
     uint32_t depth_bits;
+    uint32_t casters; /* since 1.8: HEARTH_CASTERS_* */
 } hearth_shadow_options;
 
 #define HEARTH_SHADOW_OPTIONS_INIT                                                                           \
     {                                                                                                        \
-        0, 1024, 1, 4, 1, 2, 0.1f, 100, 0.8f, 0.05f, 32                                                      \
+        0, 1024, 1, 4, 1, 2, 0.1f, 100, 0.8f, 0.05f, 32, 0                                                   \
     }
 
 /* Flags of a scene. */

@@ -43,6 +43,8 @@ Status check(const hearth_shadow_options& options)
         return usage("shadows.spot_near is not above 0");
     if (options.depth_bits != 16 && options.depth_bits != 32)
         return usage("shadows.depth_bits is neither 16 nor 32");
+    if (options.casters > HEARTH_CASTERS_PROXIES)
+        return usage("shadows.casters is none of HEARTH_CASTERS_*");
     if (options.moving_layers > 1)
         return usage("shadows.moving_layers is neither 0 nor 1");
     return success();
@@ -64,7 +66,8 @@ Result<gpu::ShadowOptions> shadowOptions(const hearth_shadow_options& options)
         .split_range = {.near = options.split_near, .far = options.split_far, .blend = options.split_blend},
         .moving_layers = options.moving_layers != 0,
         .spot_near = options.spot_near,
-        .depth = options.depth_bits == 16 ? gpu::ShadowDepth::d16 : gpu::ShadowDepth::d32};
+        .depth = options.depth_bits == 16 ? gpu::ShadowDepth::d16 : gpu::ShadowDepth::d32,
+        .casters = static_cast<gpu::Casters>(options.casters)};
 }
 
 Status makeShadowSpheres(hearth_scene& scene, const hearth_frame& frame)

@@ -70,6 +70,13 @@ constexpr bool equal(int c, gpu::LightLister lister)
 static_assert(equal(HEARTH_LIGHT_LISTS_GPU, gpu::LightLister::gpu));
 static_assert(equal(HEARTH_LIGHT_LISTS_CPU, gpu::LightLister::cpu));
 
+constexpr bool equal(int c, gpu::Casters casters)
+{
+    return c == static_cast<int>(casters);
+}
+static_assert(equal(HEARTH_CASTERS_CLUSTERS, gpu::Casters::clusters));
+static_assert(equal(HEARTH_CASTERS_PROXIES, gpu::Casters::proxies));
+
 constexpr bool equal(int c, gpu::FrameTimestamp timestamp)
 {
     return c == static_cast<int>(timestamp);

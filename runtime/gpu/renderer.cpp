@@ -251,6 +251,8 @@ Result<std::unique_ptr<Scene>> Renderer::upload(const formats::PackView& pack, V
         HEARTH_TRY(prepareDeformed());
         HEARTH_TRY(skinning_->createSets(device_, *scene));
     }
+    if (scene->proxies_cast)
+        HEARTH_TRY(cull_.prepareProxies(device_));
     HEARTH_TRY(cull_.createSets(device_, *scene));
     HEARTH_TRY(material_tiles_.createSets(device_, *scene));
     HEARTH_TRY(copy_words_.createSets(device_, *scene));
@@ -316,6 +318,8 @@ Status Renderer::createShadows(const formats::PackView& pack, const ShadowOption
     }
     if (scene.deformation != nullptr)
         HEARTH_TRY(pass->prepareDeformed(device_));
+    if (scene.proxies_cast)
+        HEARTH_TRY(pass->prepareProxies(device_));
     return pass->createMaps(device_, pack, options, depth, commands, scene);
 }
 

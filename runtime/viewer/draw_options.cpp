@@ -61,6 +61,11 @@ constexpr std::string_view kDrawHelp =
     "splits=N (4),\n"
     "                          near=M, far=M (metres, where the splits begin and end; as the scene does).\n"
     "                          Example: texels=2048,bias=4\n"
+    "      --shadow-casters clusters|proxies\n"
+    "                          what casts shadows, default clusters; proxies: of rigid, opaque meshes that "
+    "have one\n"
+    "                          (hearth cook --proxy-from); faster where they have fewer triangles than the "
+    "image\n"
     "      --shadow-sphere X,Y,Z,RADIUS[,LIGHT]\n"
     "                          finer shadows there, of all lights or of one; may be given several times\n"
     "      --exposure STOPS|auto[,STOPS]\n"
@@ -449,6 +454,8 @@ void addDrawOptions(CommandLine& command_line, DrawOptions& options)
     command_line.addValue("--frame", [&](std::string_view text) { return parseFrameWay(text, settings); });
     command_line.addValue("--shadows",
                           [&](std::string_view text) { return parseShadows(text, options.shadows); });
+    command_line.addValue("--shadow-casters",
+                          [&](std::string_view text) { return parseShadowCasters(text, options.shadows); });
     command_line.addValue("--shadow-sphere",
                           [&](std::string_view text) { return parseShadowSphere(text, options.shadows); });
     command_line.addValue("--cull", [&](std::string_view text) { return parseCull(text, settings); });

@@ -121,6 +121,14 @@ Status parseShadows(std::string_view text, ShadowSettings& settings)
     return success();
 }
 
+Status parseShadowCasters(std::string_view text, ShadowSettings& settings)
+{
+    if (text != "clusters" && text != "proxies")
+        return usage("--shadow-casters", text, "is neither clusters nor proxies");
+    settings.options.casters = text == "proxies" ? gpu::Casters::proxies : gpu::Casters::clusters;
+    return success();
+}
+
 Status parseShadowSphere(std::string_view text, ShadowSettings& settings)
 {
     const auto parts = splitText(text, ',');

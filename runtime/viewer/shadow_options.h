@@ -23,6 +23,9 @@ struct ShadowSettings
 /// Parse "off", "on" (the default), or settings of shadows that are on: "texels=2048,bias=4". errors: usage.
 Status parseShadows(std::string_view text, ShadowSettings& settings);
 
+/// Parse "clusters" (the default) or "proxies". errors: usage.
+Status parseShadowCasters(std::string_view text, ShadowSettings& settings);
+
 /// Parse one more sphere beside those of the pack: "X,Y,Z,RADIUS", and for a single light ",LIGHT". errors:
 /// usage.
 Status parseShadowSphere(std::string_view text, ShadowSettings& settings);

@@ -20,6 +20,8 @@ constexpr uint32_t kClusterTables[] = {shared::kTableFrame,    shared::kTableIns
 constexpr uint32_t kDeformedClusterTables[] = {
     shared::kTableFrame, shared::kTableInstances, shared::kTableStates,      shared::kTableItems,
     shared::kTableOrder, shared::kTableGroups,    shared::kTableDeformation, shared::kTableResults};
+constexpr uint32_t kListProxyTables[] = {shared::kTableInstances, shared::kTableStates, shared::kTableProxies,
+                                         shared::kTableProxyDraw, shared::kTableProxyChunks};
 constexpr uint32_t kScanBlockTables[] = {shared::kTableResults, shared::kTableTotals};
 constexpr uint32_t kScanTotalTables[] = {shared::kTableTotals, shared::kTableCounters};
 constexpr uint32_t kEmitVisibleTables[] = {
@@ -95,6 +97,17 @@ Status CullPass::prepareDeformed(const Device& device, const DrawLayouts& layout
     return success();
 }
 
+Status CullPass::prepareProxies(const Device& device)
+{
+    if (!list_proxies_)
+    {
+        HEARTH_ASSIGN_OR_RETURN(list_proxies_,
+                                createTablePipeline(device, shaders::list_proxies_comp, kListProxyTables,
+                                                    sizeof(shared::ListProxiesPush)));
+    }
+    return success();
+}
+
 Status CullPass::createSets(const Device& device, Scene& scene) const
 {
     for (uint32_t number = 0; number < scene.frames.size(); ++number)
@@ -119,6 +132,11 @@ Status CullPass::createViewSets(const Device& device, const Scene& scene, uint32
         HEARTH_ASSIGN_OR_RETURN(sets.deformed_clusters,
                                 createTableSet(device, from, *deformed_clusters_, kDeformedClusterTables));
     }
+    if (view.proxy_draw.mapped != nullptr)
+    {
+        HEARTH_ASSIGN_OR_RETURN(sets.list_proxies,
+                                createTableSet(device, from, *list_proxies_, kListProxyTables));
+    }
     HEARTH_ASSIGN_OR_RETURN(sets.scan_blocks, createTableSet(device, from, scan_blocks_, kScanBlockTables));
     HEARTH_ASSIGN_OR_RETURN(sets.scan_totals, createTableSet(device, from, scan_totals_, kScanTotalTables));
     HEARTH_ASSIGN_OR_RETURN(sets.emit_visible,
@@ -138,6 +156,13 @@ void CullPass::record(const Device& device, VkCommandBuffer commands, const Scen
     dispatch(device, commands, instances_, {sets.instances, occlusion},
              divideRoundUp(scene.instance_count, shared::kGroupInstances), shared::PhasePush{phase});
     computeBarrier(device, commands);
+    if (view.proxy_draw.mapped != nullptr)
+    {
+        dispatch(device, commands, *list_proxies_, {sets.list_proxies},
+                 divideRoundUp(scene.instance_count, shared::kGroupProxies),
+                 shared::ListProxiesPush{scene.instance_count});
+        computeBarrier(device, commands);
+    }
     const uint32_t rigid = rigidItems(scene);
     dispatch(device, commands, clusters_, {sets.clusters, occlusion}, rigid,
              shared::CullPush{0, rigid, phase});

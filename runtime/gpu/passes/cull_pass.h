@@ -20,6 +20,9 @@ public:
     /// Create the pipelines for scenes with deformed meshes; call once.
     Status prepareDeformed(const Device& device, const DrawLayouts& layouts);
 
+    /// Create the pipeline for scenes whose proxies cast shadows; call once.
+    Status prepareProxies(const Device& device);
+
     /// Allocate the descriptor sets of this pass for the views of a scene.
     Status createSets(const Device& device, Scene& scene) const;
 
@@ -27,7 +30,7 @@ public:
     /// pyramid is built, kPhaseLate, which appends to the visible list and adds draws. Outside a render pass.
     /// Results are visible to later compute shaders and transfers. Clobbers the compute state.
     ///
-    /// view  of the scene's frame; its constants are written, and its draws of materials are zero
+    /// view  of the scene's frame; its constants are written, and its draws of materials and proxies are empty
     void record(const Device& device, VkCommandBuffer commands, const Scene& scene, const SceneView& view,
                 VkDescriptorSet occlusion, uint32_t phase) const;
 
@@ -37,6 +40,7 @@ private:
     ComputePipeline instances_;
     ComputePipeline clusters_;
     std::optional<ComputePipeline> deformed_clusters_; ///< set once a scene has deformed meshes
+    std::optional<ComputePipeline> list_proxies_;      ///< set once proxies of a scene cast shadows
     ComputePipeline scan_blocks_;
     ComputePipeline scan_totals_;
     ComputePipeline emit_visible_;

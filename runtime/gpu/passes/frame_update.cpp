@@ -87,6 +87,8 @@ void recordViewChange(const Device& device, VkCommandBuffer commands, const Scen
             VK_ACCESS_TRANSFER_WRITE_BIT);
     device.vk.vkCmdUpdateBuffer(commands, target.frame.handle.get(), 0, sizeof(view), &view);
     device.vk.vkCmdFillBuffer(commands, target.material_draws.handle.get(), 0, VK_WHOLE_SIZE, 0);
+    if (const shared::ProxyDraw draw = emptyProxyDraw(); target.proxy_draw.mapped != nullptr)
+        device.vk.vkCmdUpdateBuffer(commands, target.proxy_draw.handle.get(), 0, sizeof(draw), &draw);
     barrier(device, commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, kReaders,
             VK_ACCESS_UNIFORM_READ_BIT | VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT);
 }
@@ -95,6 +97,8 @@ void writeView(const SceneView& target, const shared::FrameView& view)
 {
     std::memcpy(target.frame.mapped, &view, sizeof(view));
     clear(target.material_draws);
+    if (const shared::ProxyDraw draw = emptyProxyDraw(); target.proxy_draw.mapped != nullptr)
+        std::memcpy(target.proxy_draw.mapped, &draw, sizeof(draw));
 }
 
 } // namespace hearth::gpu

@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/passes/shadow_pass.h"
 
+#include "runtime/gpu/scene/scene_tables.h"
+#include "runtime/shaders/shaders.h"
+
 namespace hearth::gpu
 {
 
 namespace
 {
+
+constexpr uint32_t kProxyTables[] = {shared::kTableInstances,      shared::kTableShadows,
+                                     shared::kTableProxies,        shared::kTableProxyChunks,
+                                     shared::kTableProxyPositions, shared::kTableProxyIndices};
 
 /// Barrier for `count` layers from `first` on.
 VkImageMemoryBarrier layerBarrier(const Image& image, uint32_t first, uint32_t count, VkImageLayout before,
@@ -45,6 +52,42 @@ Result<ShadowPass> ShadowPass::create(const Device& device, const DrawLayouts& l
     return pass;
 }
 
+/// Culls no faces, as clusters.
+Status ShadowPass::prepareProxies(const Device& device)
+{
+    if (proxies_)
+        return success();
+    Proxies proxies;
+    HEARTH_ASSIGN_OR_RETURN(proxies.set_layout,
+                            createSetLayout(device, tableBindings(kProxyTables, VK_SHADER_STAGE_VERTEX_BIT)));
+    const NumberedSet sets[] = {{shared::kSetTables, proxies.set_layout.get()}};
+    HEARTH_ASSIGN_OR_RETURN(proxies.layout,
+                            createPipelineLayout(device, sets, kBinPushStages, sizeof(shared::BinPush)));
+    HEARTH_ASSIGN_OR_RETURN(proxies.pipeline,
+                            createGraphicsPipeline(device, {.vertex = shaders::caster_proxy_vert,
+                                                            .fragment = shaders::caster_frag,
+                                                            .layout = proxies.layout.get(),
+                                                            .render_pass = render_pass_,
+                                                            .subpass = 0,
+                                                            .depth_compare = VK_COMPARE_OP_GREATER,
+                                                            .depth_write = true,
+                                                            .colors = 0}));
+    proxies_ = std::move(proxies);
+    return success();
+}
+
+Status ShadowPass::createProxySets(const Device& device, Scene& scene) const
+{
+    for (uint32_t number = 0; number < scene.frames.size(); ++number)
+        for (SceneView& view : scene.frames[number].casters)
+        {
+            HEARTH_ASSIGN_OR_RETURN(view.proxy_set,
+                                    allocateSet(device, scene.pool.get(), proxies_->set_layout.get()));
+            writeTables(device, {scene, number, view}, view.proxy_set, kProxyTables);
+        }
+    return success();
+}
+
 Status ShadowPass::createMaps(const Device& device, const formats::PackView& pack,
                               const ShadowOptions& options, const ShadowDepthChoice& depth,
                               VkCommandBuffer commands, Scene& scene) const
@@ -61,6 +104,8 @@ Status ShadowPass::createMaps(const Device& device, const formats::PackView& pac
             scene.shadows->pose(deformed.instances[i], poses[i]);
     }
     makeSampleable(device, commands, shadows.image());
+    if (scene.proxies_cast)
+        HEARTH_TRY(createProxySets(device, scene));
     const auto write = [&](const SceneFrame& frame, const SceneView& view)
     {
         DescriptorWriter(view.draw_set)
@@ -91,6 +136,12 @@ void ShadowPass::recordCounters(const Device& device, VkCommandBuffer commands, 
                                     sizeof(shared::FrameCounters)};
         device.vk.vkCmdCopyBuffer(commands, views[i].counters.handle.get(),
                                   scene.shadows->casters().handle.get(), 1, &counters);
+        if (!scene.proxies_cast)
+            continue;
+        const VkBufferCopy triangles{offsetof(shared::ProxyDraw, triangle_count),
+                                     maps[i].layer * VkDeviceSize{sizeof(uint32_t)}, sizeof(uint32_t)};
+        device.vk.vkCmdCopyBuffer(commands, views[i].proxy_draw.handle.get(),
+                                  scene.shadows->proxyTriangles().handle.get(), 1, &triangles);
     }
 }
 
@@ -129,6 +180,19 @@ void ShadowPass::recordMap(const Device& device, VkCommandBuffer commands, const
     push.light_row = scene.shadows->plan().row_of[map.map];
     push.map_index = map.map;
     casters_.record(device, commands, layouts, scene, view, shared::kPhaseWhole, push);
+    if (scene.proxies_cast)
+        recordProxies(device, commands, view, push);
+}
+
+void ShadowPass::recordProxies(const Device& device, VkCommandBuffer commands, const SceneView& view,
+                               const shared::BinPush& push) const
+{
+    const VkPipelineLayout layout = proxies_->layout.get();
+    device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, proxies_->pipeline.get());
+    device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, shared::kSetTables,
+                                      1, &view.proxy_set, 0, nullptr);
+    device.vk.vkCmdPushConstants(commands, layout, kBinPushStages, 0, sizeof(push), &push);
+    device.vk.vkCmdDrawIndirect(commands, view.proxy_draw.handle.get(), 0, 1, sizeof(shared::ProxyDraw));
 }
 
 } // namespace hearth::gpu

@@ -1,5 +1,5 @@
-// Draws the casters of shadow maps, each map into its layer: the clusters that the culling pass found, depth
-// only. See runtime/gpu/README.md, "Shadows".
+// Draws the casters of shadow maps, each map into its layer: the clusters and proxies that the culling pass
+// found, depth only. See runtime/gpu/README.md, "Shadows".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -18,6 +18,9 @@ public:
 
     /// Create the pipelines for scenes with deformed meshes; call once.
     Status prepareDeformed(const Device& device) { return casters_.prepareDeformed(device); }
+
+    /// Create the pipeline for scenes whose proxies cast shadows; call once.
+    Status prepareProxies(const Device& device);
 
     /// Create the shadow maps of a scene and write them to its descriptor set. Records commands that make the
     /// layers sampleable. errors: same as SceneShadows::create.
@@ -42,8 +45,20 @@ public:
                    const Scene& scene, const SceneView& view, const ShadowCache::LayerUpdate& map) const;
 
 private:
+    /// Pipeline that draws proxies.
+    struct Proxies
+    {
+        UniqueSetLayout set_layout;
+        UniquePipelineLayout layout;
+        UniquePipeline pipeline;
+    };
+    Status createProxySets(const Device& device, Scene& scene) const;
+    void recordProxies(const Device& device, VkCommandBuffer commands, const SceneView& view,
+                       const shared::BinPush& push) const;
+
     VkRenderPass render_pass_ = VK_NULL_HANDLE;
     BinPass casters_;
+    std::optional<Proxies> proxies_; ///< set once proxies of a scene cast shadows
 };
 
 } // namespace hearth::gpu

@@ -72,6 +72,7 @@ struct SceneBuffers
     /// Mapped: rows of a page change while no frame draws it, or by a frame's commands.
     Buffer cluster_draws;
     PoolBuffers pool;
+    Buffer proxies, proxy_positions, proxy_indices; ///< scenes whose proxies cast shadows only
     // rewritten by every culling phase, and read by compute shaders only
     Buffer states, results, totals;
 };
@@ -156,6 +157,7 @@ struct Scene
     std::unique_ptr<SceneStream> stream;             ///< streamed scenes only
     std::unique_ptr<SceneDeformation> deformation;   ///< scenes with deformed meshes only
     std::unique_ptr<SceneShadows> shadows;           ///< scenes with shadows only
+    bool proxies_cast = false;                       ///< proxies of some meshes cast their shadows
     std::unique_ptr<SceneBricks> bricks;             ///< scenes with bricks only
     std::unique_ptr<SceneSurroundings> surroundings; ///< scenes with baked surroundings only
     std::unique_ptr<SceneReceivers> receivers;       ///< scenes with receivers only

@@ -3,6 +3,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "formats/gpu_shared/proxy_casters.h"
 #include "formats/gpu_shared/records.h"
 #include "runtime/gpu/vulkan/pipelines.h"
 
@@ -20,6 +21,7 @@ struct CullSets
 {
     VkDescriptorSet instances, clusters, scan_blocks, scan_totals, emit_visible, emit_draws;
     VkDescriptorSet deformed_clusters; ///< scenes with deformed meshes only
+    VkDescriptorSet list_proxies;      ///< shadow maps of scenes whose proxies cast only
 };
 
 /// One view of a frame: the buffers that its culling fills and its draws read.
@@ -28,10 +30,19 @@ struct SceneView
     Buffer frame; ///< shared::FrameView; mapped
     Buffer counters, visible, bin_draws;
     Buffer material_draws; ///< mapped; zero before culling
+    Buffer proxy_draw;     ///< shared::ProxyDraw, reset before culling; mapped
+    Buffer proxy_chunks;   ///< of shadow maps in scenes whose proxies cast only, as proxy_draw
     VkDescriptorSet draw_set = VK_NULL_HANDLE;
     VkDescriptorSet bins_set = VK_NULL_HANDLE;
+    VkDescriptorSet proxy_set = VK_NULL_HANDLE;
     CullSets cull_sets{};
 };
+
+/// Return the draw of a view before proxies are listed.
+inline shared::ProxyDraw emptyProxyDraw()
+{
+    return {shared::kProxyChunkVertices, 0, 0, 0, 0};
+}
 
 /// Everything that a frame may change while the one before is still drawn.
 struct SceneFrame

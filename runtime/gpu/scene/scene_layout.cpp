@@ -187,6 +187,22 @@ GroupItems makeGroupItems(const formats::PackView& pack)
     return result;
 }
 
+void addProxyCasters(const formats::PackView& pack, SceneLayout& layout)
+{
+    shared::ProxyCasters casters = shared::findProxyCasters(pack);
+    for (size_t mesh = 0; mesh < casters.boxes.size(); ++mesh)
+        if (const Box3& box = casters.boxes[mesh]; !box.empty())
+        {
+            shared::MeshBounds& bounds = layout.bounds[mesh];
+            bounds.box_min = min(bounds.box_min, box.min);
+            bounds.box_max = max(bounds.box_max, box.max);
+        }
+    for (const formats::InstanceRecord& instance : pack.instances())
+        layout.proxy_chunks += shared::countProxyChunks(casters.rows[instance.mesh]);
+    layout.proxies = std::move(casters.rows);
+    layout.proxies.resize(layout.bounds.size());
+}
+
 Result<SceneLayout> makeSceneLayout(const formats::PackView& pack)
 {
     HEARTH_ASSIGN_OR_RETURN(PoolLayout pool, placeAllPages(pack));

@@ -5,6 +5,7 @@
 
 #include "formats/pack/pack_view.h"
 #include "runtime/frame/frame.h"
+#include "runtime/frame/proxy_casters.h"
 #include "runtime/gpu/scene/deformation_layout.h"
 #include "runtime/gpu/scene/pool_layout.h"
 
@@ -39,12 +40,14 @@ struct SceneLayout
     std::vector<SceneBin> bins;
     std::vector<shared::ClusterDraw> draws;        ///< per cluster
     std::vector<shared::MeshBounds> bounds;        ///< per mesh, then per deformed instance
+    std::vector<shared::ProxyCaster> proxies;      ///< as bounds; empty unless proxies cast shadows
     std::vector<shared::Instance> instances;       ///< instances of the pack, deformed ones at rest
     std::vector<shared::InstanceInverse> inverses; ///< per instance
     DeformationLayout deformation;
     PoolLayout pool;
     /// Sum over all instances of the clusters of their meshes: the most that a frame draws.
     uint64_t instanced_clusters = 0;
+    uint64_t proxy_chunks = 0;  ///< of the proxies of all instances
     uint32_t material_rows = 0; ///< materials of the pack, then the default material
 };
 
@@ -65,6 +68,9 @@ GroupItems makeGroupItems(const formats::PackView& pack);
 /// Compute the layout. Clusters of pages without a place get a meaningless address. errors: device_limit if
 /// the scene exceeds the limits that every Vulkan 1.1 device supports.
 Result<SceneLayout> makeSceneLayout(const formats::PackView& pack, PoolLayout pool);
+
+/// Let the proxies of a pack cast the shadows of its meshes. Bounds of these meshes then contain the proxies.
+void addProxyCasters(const formats::PackView& pack, SceneLayout& layout);
 
 /// Compute the layout with a place for every page.
 Result<SceneLayout> makeSceneLayout(const formats::PackView& pack);

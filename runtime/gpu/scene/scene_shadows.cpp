@@ -73,6 +73,10 @@ Result<std::unique_ptr<SceneShadows>> SceneShadows::create(const Device& device,
         s.casters_, s.arena_.createBuffer(s.layerCount() * sizeof(shared::FrameCounters),
                                           VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
                                           MemoryKind::device));
+    HEARTH_ASSIGN_OR_RETURN(s.proxy_triangles_, s.arena_.createBuffer(s.layerCount() * sizeof(uint32_t),
+                                                                      VK_BUFFER_USAGE_TRANSFER_DST_BIT |
+                                                                          VK_BUFFER_USAGE_TRANSFER_SRC_BIT,
+                                                                      MemoryKind::device));
     return shadows;
 }
 

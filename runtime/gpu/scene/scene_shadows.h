@@ -85,6 +85,8 @@ public:
     /// shared::FrameCounters per layer: the clusters drawn, and the clusters dropped for lack of slots in the
     /// visible list.
     const Buffer& casters() const { return casters_; }
+    /// A word per layer: the triangles of proxies drawn; not written unless proxies cast shadows.
+    const Buffer& proxyTriangles() const { return proxy_triangles_; }
     const Image& image() const { return image_; } ///< in SHADER_READ_ONLY_OPTIMAL between frames
     const ShadowDepthChoice& depth() const { return depth_; }
     VkSampler sampler() const { return sampler_.get(); }
@@ -136,6 +138,7 @@ private:
     Image image_;
     UniqueSampler sampler_;
     Buffer casters_;
+    Buffer proxy_triangles_;
     std::vector<Layer> layers_;
 };
 

@@ -57,6 +57,18 @@ const Buffer* tableBuffer(const TableView& from, uint32_t table)
         return &b.group_items;
     case shared::kTablePageRequests:
         return &frame.page_requests;
+    case shared::kTableShadows:
+        return &frame.shadow_block;
+    case shared::kTableProxies:
+        return &b.proxies;
+    case shared::kTableProxyDraw:
+        return &from.view.proxy_draw;
+    case shared::kTableProxyChunks:
+        return &from.view.proxy_chunks;
+    case shared::kTableProxyPositions:
+        return &b.proxy_positions;
+    case shared::kTableProxyIndices:
+        return &b.proxy_indices;
     case shared::kTableDeformation:
         HEARTH_ASSERT(from.scene.deformation != nullptr);
         return &from.scene.deformation->table.copy(from.frame);
@@ -65,14 +77,18 @@ const Buffer* tableBuffer(const TableView& from, uint32_t table)
     }
 }
 
+bool isUniform(uint32_t table)
+{
+    return table == shared::kTableFrame || table == shared::kTableShadows;
+}
+
 } // namespace
 
 std::vector<SetBinding> tableBindings(std::span<const uint32_t> tables, VkShaderStageFlags stages)
 {
     std::vector<SetBinding> bindings;
     for (const uint32_t table : tables)
-        bindings.push_back(table == shared::kTableFrame ? uniformBinding(table, stages)
-                                                        : storageBinding(table, stages));
+        bindings.push_back(isUniform(table) ? uniformBinding(table, stages) : storageBinding(table, stages));
     return bindings;
 }
 
@@ -99,7 +115,7 @@ void writeTables(const Device& device, const TableView& from, VkDescriptorSet se
         const Buffer* buffer = tableBuffer(from, table);
         if (buffer == nullptr)
             HEARTH_ASSERT(table == shared::kTableStatistics);
-        else if (table == shared::kTableFrame)
+        else if (isUniform(table))
             writer.uniform(table, *buffer);
         else
             writer.storage(table, *buffer);

@@ -104,6 +104,14 @@ void createView(const Scene& scene, const SceneLayout& layout, BufferFactory& f,
            MemoryKind::upload);
 }
 
+/// Create what a shadow map has beside the view of a frame.
+void createProxyList(const SceneLayout& layout, BufferFactory& f, SceneView& view)
+{
+    f.make(view.proxy_draw, "proxies", 1, sizeof(shared::ProxyDraw),
+           kIndirectUsage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::upload);
+    f.make(view.proxy_chunks, "proxies", layout.proxy_chunks, sizeof(shared::ProxyChunk), kWorkUsage);
+}
+
 /// Number of shadow maps that are culled side by side: as many as a few megabytes of visible lists hold.
 uint32_t countCasterViews(const Scene& scene, const ShadowOptions& shadows)
 {
@@ -121,7 +129,11 @@ void createFrame(const formats::PackView& pack, const SceneLayout& layout, const
     createView(scene, layout, f, frame.main);
     frame.casters.resize(countCasterViews(scene, options.shadows));
     for (SceneView& view : frame.casters)
+    {
         createView(scene, layout, f, view);
+        if (scene.proxies_cast)
+            createProxyList(layout, f, view);
+    }
     f.make(frame.tile_draws, "material draws", uint64_t{layout.material_rows} + 1, sizeof(shared::TileDraw),
            kIndirectUsage, MemoryKind::upload);
     uint64_t regions = 1 + WordCopies::countRegions(maxFreshLightWords(pack, options.bricks));
@@ -162,6 +174,12 @@ Status createBuffers(const Device& device, const formats::PackView& pack, const 
     f.make(b.cluster_draws, "clusters", pack.clusters().size(), sizeof(shared::ClusterDraw), kTable,
            MemoryKind::upload);
     f.make(b.bins, "bins", layout.bins.size(), sizeof(shared::Bin), kTable);
+    if (scene.proxies_cast)
+    {
+        f.make(b.proxies, "proxies", layout.proxies.size(), sizeof(shared::ProxyCaster), kTable);
+        f.make(b.proxy_positions, "proxies", pack.proxyPositions().size(), sizeof(Float3), kTable);
+        f.make(b.proxy_indices, "proxies", pack.proxyIndices().size(), sizeof(uint32_t), kTable);
+    }
     f.make(b.states, "instance states", pack.instances().size(), sizeof(shared::InstanceState), kWorkUsage);
     f.make(b.results, "work results", layout.items.size(), sizeof(shared::WorkResult), kWorkUsage);
     f.make(b.totals, "scan totals", uint64_t{blockCount(scene)} + 1, sizeof(uint32_t), kWorkUsage);
@@ -218,6 +236,12 @@ Status uploadTables(const formats::PackView& pack, const SceneLayout& layout, Up
     for (const SceneBin& bin : layout.bins)
         bins.push_back(bin.items);
     HEARTH_TRY(uploader.uploadRecords(b.bins, bins));
+    if (scene.proxies_cast)
+    {
+        HEARTH_TRY(uploader.uploadRecords(b.proxies, layout.proxies));
+        HEARTH_TRY(uploader.uploadRecords(b.proxy_positions, pack.proxyPositions()));
+        HEARTH_TRY(uploader.uploadRecords(b.proxy_indices, pack.proxyIndices()));
+    }
     if (scene.deformation != nullptr)
         scene.deformation->table.fill(std::as_bytes(std::span(layout.deformation.words)));
 
@@ -288,17 +312,17 @@ Status createViewSets(const Device& device, const DrawLayouts& layouts, const Sc
 
 Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene, uint32_t material_rows)
 {
-    // a view has sets for drawing and bins, and seven of the culling pass; a frame one each for cluster
-    // views, lights, tiles, page requests of both kinds, skinning and bricks, and six for copies; bricks one
-    // more
+    // a view has sets for drawing, bins and proxies, and eight of the culling pass; a frame one each for
+    // cluster views, lights, tiles, page requests of both kinds, skinning and bricks, and six for copies;
+    // bricks one more
     const auto frames = static_cast<uint32_t>(scene.frames.size());
     const uint32_t material_sets = material_rows * (scene.textures == nullptr ? 1 : frames);
     const uint32_t views = frames * (1 + static_cast<uint32_t>(scene.frames.front().casters.size()));
-    const DescriptorPoolSizes sizes{.uniforms = 6 * views + 9 * frames + 2 * material_sets,
-                                    .storages = 56 * views + 71 * frames + 2,
+    const DescriptorPoolSizes sizes{.uniforms = 7 * views + 9 * frames + 2 * material_sets,
+                                    .storages = 66 * views + 71 * frames + 2,
                                     .textures = material_sets * shared::kTextureCount + 5 * views};
-    HEARTH_ASSIGN_OR_RETURN(scene.pool,
-                            createDescriptorPool(device, 9 * views + 14 * frames + 1 + material_sets, sizes));
+    HEARTH_ASSIGN_OR_RETURN(
+        scene.pool, createDescriptorPool(device, 11 * views + 14 * frames + 1 + material_sets, sizes));
     for (uint32_t number = 0; number < frames; ++number)
     {
         SceneFrame& frame = scene.frames[number];
@@ -457,6 +481,9 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
         HEARTH_ASSIGN_OR_RETURN(pool, placeAllPages(pack));
     }
     HEARTH_ASSIGN_OR_RETURN(SceneLayout layout, makeSceneLayout(pack, std::move(pool)));
+    if (options.shadows.max_maps > 0 && options.shadows.casters == Casters::proxies)
+        addProxyCasters(pack, layout);
+    scene->proxies_cast = layout.proxy_chunks > 0;
     const GroupItems group_items = options.memory_budget > 0 ? makeGroupItems(pack) : GroupItems{};
     scene->staging = std::make_unique<Uploader>(device, commands);
     scene->instances.assign(pack.instances().begin(), pack.instances().end());

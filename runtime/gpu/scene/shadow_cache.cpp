@@ -43,8 +43,15 @@ Affine3 readTransform(const shared::Instance& instance)
     return t;
 }
 
-/// Bounds of a mesh's clusters and of the spheres that decide its cut.
-std::vector<Box3> computeReaches(const formats::PackView& pack)
+/// Return the boxes of the proxies that cast the shadows of meshes, empty for others.
+std::vector<Box3> findProxyBoxes(const formats::PackView& pack, Casters casters)
+{
+    return casters == Casters::proxies ? shared::findProxyCasters(pack).boxes
+                                       : std::vector<Box3>(pack.meshes().size());
+}
+
+/// Bounds of a mesh's clusters and of the spheres that decide its cut, or of the proxy that casts its shadow.
+std::vector<Box3> computeReaches(const formats::PackView& pack, std::span<const Box3> proxy_boxes)
 {
     std::vector<Box3> reaches;
     for (const shared::MeshBounds& bounds : shared::makeMeshBounds(pack.meshes(), pack.clusters()))
@@ -59,6 +66,9 @@ std::vector<Box3> computeReaches(const formats::PackView& pack)
             reaches[mesh].add(group.sphere_center - reach);
             reaches[mesh].add(group.sphere_center + reach);
         }
+    for (size_t mesh = 0; mesh < reaches.size(); ++mesh)
+        if (!proxy_boxes[mesh].empty())
+            reaches[mesh] = proxy_boxes[mesh];
     return reaches;
 }
 
@@ -113,7 +123,8 @@ bool sameBits(const T& a, const T& b)
 
 ShadowCache::ShadowCache(const formats::PackView& pack, const ShadowOptions& options)
     : pack_(pack),
-      mesh_bounds_(computeReaches(pack)),
+      proxy_boxes_(findProxyBoxes(pack, options.casters)),
+      mesh_bounds_(computeReaches(pack, proxy_boxes_)),
       changed_errors_(pack.meshes().size(), kUnchanged),
       has_moved_(pack.instances().size(), 0),
       moving_layers_(options.moving_layers),
@@ -123,6 +134,7 @@ ShadowCache::ShadowCache(const formats::PackView& pack, const ShadowOptions& opt
     {
         mesh_of_instance_.push_back(instance.mesh);
         instance_scales_.push_back(instance.scale_max);
+        follows_eye_ = follows_eye_ || proxy_boxes_[instance.mesh].empty();
         instance_bounds_.push_back(worldBox(mesh_bounds_[instance.mesh], instance.world_from_object));
     }
     movers_.reserve(pack.instances().size());
@@ -170,8 +182,9 @@ void ShadowCache::publish(std::span<const pack::ResidentGroups::Change> groups)
     for (const auto& [group, resident] : groups)
     {
         const formats::GroupRecord& record = pack_.groups()[group];
-        float& changed = changed_errors_[pack_.pages()[record.page].mesh];
-        changed = std::max(changed, record.error);
+        const uint32_t mesh = pack_.pages()[record.page].mesh;
+        if (proxy_boxes_[mesh].empty())
+            changed_errors_[mesh] = std::max(changed_errors_[mesh], record.error);
     }
     for (size_t instance = 0; instance < instance_bounds_.size(); ++instance)
         if (const float changed = changed_errors_[mesh_of_instance_[instance]]; changed != kUnchanged)
@@ -217,7 +230,8 @@ ShadowCache::Layer ShadowCache::makeLayer(const ShadowPlan& plan, uint32_t map,
     Layer layer{.light = projectionKey(plan.block.lights[row]), .map = plan.block.maps[map]};
     layer.map.layer = 0;
     shared::FrameView seen = view;
-    seen.eye = shared::findEyeCell(view, plan.finest_m[row], plan.block.error_bias).eye;
+    seen.eye = follows_eye_ ? shared::findEyeCell(view, plan.finest_m[row], plan.block.error_bias).eye
+                            : layer.light.origin;
     layer.casters =
         shared::makeCasterView(seen, layer.light, layer.map, plan.block.error_bias, plan.range_m[row]);
     if (moving_layers_)

@@ -78,8 +78,9 @@ private:
     void planMoving(uint32_t map, const shared::FrameView& casters, Layer& layer, ShadowPlan& plan);
 
     const formats::PackView& pack_;
-    /// Per mesh: bounds of its clusters and of the spheres of its groups, in object space or in the space of
-    /// a deformed mesh's anchor.
+    std::vector<Box3> proxy_boxes_; ///< per mesh; empty if it casts its own shadow
+    /// Per mesh: bounds of its clusters and of the spheres of its groups, or of the proxy that casts its
+    /// shadow, in object space or in the space of a deformed mesh's anchor.
     std::vector<Box3> mesh_bounds_;
     std::vector<uint32_t> mesh_of_instance_;
     std::vector<float> instance_scales_;
@@ -88,6 +89,7 @@ private:
     std::vector<uint8_t> has_moved_;    ///< per instance: 1 if it has moved, with moving layers
     std::vector<uint32_t> movers_;
     bool moving_layers_;
+    bool follows_eye_ = false; ///< clusters cast, by the levels that the eye sees
     std::vector<Layer> layers_;
     std::vector<Layer> wanted_; ///< by the maps of a plan; scratch
     std::vector<LayerUpdate> stale_;

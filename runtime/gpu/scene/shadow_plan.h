@@ -24,6 +24,13 @@ constexpr uint32_t depthBits(ShadowDepth depth)
     return depth == ShadowDepth::d16 ? 16 : 32;
 }
 
+/// Geometry that casts shadows.
+enum class Casters : uint8_t
+{
+    clusters, ///< the levels that the frame draws, or coarser ones (ShadowOptions::error_bias)
+    proxies,  ///< proxies of meshes that have one which can (shared::findProxyCasters), else clusters
+};
+
 /// Shadow settings of a scene.
 struct ShadowOptions
 {
@@ -51,6 +58,8 @@ struct ShadowOptions
 
     /// d16: 16-bit depths where their steps do not show, else 32-bit depths (chooseShadowDepth).
     ShadowDepth depth = ShadowDepth::d32;
+
+    Casters casters = Casters::clusters;
 };
 
 inline constexpr uint32_t kMaxSplits = 8;

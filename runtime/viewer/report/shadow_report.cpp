@@ -35,6 +35,7 @@ std::string formatMembers(const ShadowCounts& counts)
     add("unshadowed_lights", counts.maps.unshadowed_lights);
     add("caster_clusters", counts.caster_clusters);
     add("dropped_clusters", counts.dropped_clusters);
+    add("proxy_triangles", counts.proxy_triangles);
     add("map_bytes", counts.map_bytes);
     add("depth_bits", gpu::depthBits(counts.depth.depth));
     if (counts.depth.light != kInvalidIndex)
@@ -49,6 +50,13 @@ Result<ShadowCounts> countShadows(VulkanHost& host, const gpu::Renderer& rendere
     const gpu::SceneShadows& shadows = *scene.shadows;
     HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> bytes,
                             host.read(renderer.device(), shadows.casters()));
+    std::vector<uint32_t> proxy_triangles(bytes.size() / sizeof(shared::FrameCounters), 0);
+    if (scene.proxies_cast)
+    {
+        HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> words,
+                                host.read(renderer.device(), shadows.proxyTriangles()));
+        std::memcpy(proxy_triangles.data(), words.data(), words.size());
+    }
     ShadowCounts counts{
         .maps = shadows.statistics(), .map_bytes = shadows.allocatedBytes(), .depth = shadows.depth()};
     // nothing moves here, so no map has a second layer
@@ -58,6 +66,7 @@ Result<ShadowCounts> countShadows(VulkanHost& host, const gpu::Renderer& rendere
         std::memcpy(&layer, bytes.data() + map.layer * sizeof(layer), sizeof(layer));
         counts.caster_clusters += layer.drawn_clusters;
         counts.dropped_clusters += layer.dropped_clusters;
+        counts.proxy_triangles += proxy_triangles[map.layer];
     }
     return counts;
 }

@@ -15,6 +15,7 @@ struct ShadowCounts
     gpu::ShadowStatistics maps;
     uint64_t caster_clusters = 0;  ///< clusters of the maps in use, counted when each map was drawn
     uint64_t dropped_clusters = 0; ///< of these, clusters without a slot in the visible list
+    uint64_t proxy_triangles = 0;  ///< of the maps in use, as caster_clusters
     uint64_t map_bytes = 0;
     gpu::ShadowDepthChoice depth{};
 };

@@ -81,7 +81,10 @@ TEST_F(CApiTest, bloomsAtAnotherSize)
 
 TEST_F(CApiTest, castsTheShadowsOfTheRenderer)
 {
-    for (const uint32_t depth_bits : {32u, 16u})
+    std::vector<uint32_t> shadows_of_clusters;
+    for (const auto& [depth_bits, casters] : {std::pair{32u, gpu::Casters::clusters},
+                                              {16u, gpu::Casters::clusters},
+                                              {32u, gpu::Casters::proxies}})
     {
         SCOPED_TRACE(depth_bits);
         const hearth_shadow_sphere sphere{.center = {0, 0.5f, 0}, .radius = 1, .light = 0, .texels = 0};
@@ -94,8 +97,10 @@ TEST_F(CApiTest, castsTheShadowsOfTheRenderer)
         c_options.shadows.splits = 2;
         c_options.shadows.split_far = 20;
         c_options.shadows.depth_bits = depth_bits;
+        c_options.shadows.casters = static_cast<uint32_t>(casters);
         shadows_ = {.max_maps = 4, .texels = 256, .splits = 2, .split_range = {.far = 20}};
         shadows_.depth = depth_bits == 16 ? gpu::ShadowDepth::d16 : gpu::ShadowDepth::d32;
+        shadows_.casters = casters;
         const gpu::ShadowSphere cpp_sphere{.center = {0, 0.5f, 0}, .radius = 1, .light = 0};
         DrawOptions options;
         options.shadow_spheres = {&cpp_sphere, 1};
@@ -106,6 +111,10 @@ TEST_F(CApiTest, castsTheShadowsOfTheRenderer)
             frame.debug_view = options.debug_view = debug_view;
             expectEqual(drawInC(frame, c_options), drawInCpp(options));
             EXPECT_NE(color_, lit_color);
+            if (casters == gpu::Casters::clusters && debug_view == HEARTH_VIEW_FINAL)
+                shadows_of_clusters = color_;
+            else
+                EXPECT_NE(color_, shadows_of_clusters);
         }
     }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/runtime/c/c_fixture.h"
 
+#include "tests/support/scene_proxies.h"
 #include "tests/support/shapes.h"
 
 namespace hearth::test
@@ -18,6 +19,7 @@ void fillScene(TestScene& scene)
     const uint32_t sheet = scene.addMaterial(two_sided);
     const uint32_t meshes[] = {scene.addMesh(withMaterial(shapes::rock(48, 0.3f), plain)),
                                scene.addMesh(withMaterial(shapes::terrain(64), sheet))};
+    addProxy(scene.model(), meshes[0], shapes::rock(6, 0), 0.4f, true);
     scene.addInstance(meshes[0], Affine3{});
     for (size_t i = 1; i < 6; ++i)
         scene.addInstance(meshes[i % 2], randomAffine(random, 3));

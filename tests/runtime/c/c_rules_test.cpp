@@ -454,6 +454,7 @@ TEST_F(CFrameRulesTest, sceneOptionsThatBreakRulesAreRefused)
     EXPECT_THAT(shadows([](S& s) { s.spot_near = 0; }), HasSubstr("shadows.spot_near"));
     EXPECT_THAT(shadows([](S& s) { s.moving_layers = 2; }), HasSubstr("shadows.moving_layers"));
     EXPECT_THAT(shadows([](S& s) { s.depth_bits = 24; }), HasSubstr("shadows.depth_bits"));
+    EXPECT_THAT(shadows([](S& s) { s.casters = 2; }), HasSubstr("shadows.casters"));
     EXPECT_EQ(scene_, nullptr);
     EXPECT_EQ(upload(streamedBy(reader, 16)), HEARTH_ERROR_STREAMING_BUDGET);
     EXPECT_THAT(hearth_last_error(renderer_), HasSubstr("[E4006] hint: raise the budget"));

@@ -10,6 +10,7 @@
 #include "tests/runtime/gpu/deformed_scene.h"
 #include "tests/runtime/gpu/interface_check.h"
 #include "tests/runtime/shaders/shader_list.h"
+#include "tests/support/scene_proxies.h"
 #include "tests/support/shapes.h"
 
 #include <algorithm>
@@ -127,8 +128,10 @@ protected:
     {
         TestScene test;
         test.addInstance(test.addMesh(withMaterial(shapes::rock(10, 0.2f), kInvalidIndex)), Affine3{});
+        addProxy(test.model(), 0, shapes::rock(4, 0), 0.2f, true);
         const formats::PackView pack = test.build();
-        const auto scene = uploadWith(recorded, pack, {});
+        const auto scene =
+            uploadWith(recorded, pack, {.shadows = {.max_maps = 4, .casters = gpu::Casters::proxies}});
         prepareLights(recorded, *scene);
     }
 

@@ -7,6 +7,7 @@
 #include "formats/gpu_shared/gather.h"
 #include "formats/gpu_shared/light_cells.h"
 #include "formats/gpu_shared/material_tiles.h"
+#include "formats/gpu_shared/proxy_casters.h"
 #include "formats/gpu_shared/push_constants.h"
 #include "formats/gpu_shared/receivers/receiver_points.h"
 #include "formats/gpu_shared/shading.h"
@@ -82,6 +83,7 @@ std::vector<SharedStruct> pushStructs()
         HEARTH_STRUCT(WordCopyPush, first_region),
         HEARTH_STRUCT(PageRequestPush, first_item, item_count, first_material, default_material),
         HEARTH_STRUCT(CullStatisticsPush, first_item, item_count, instance_count),
+        HEARTH_STRUCT(ListProxiesPush, instance_count),
         HEARTH_STRUCT(SkinningPlanPush, bin_count, first_bin, phase),
         HEARTH_STRUCT(PyramidPush, width, height),
         HEARTH_STRUCT(TilesPush, width, height, draw_count),
@@ -120,6 +122,10 @@ std::vector<SharedStruct> tableStructs()
         HEARTH_STRUCT(FrameCounters, drawn_clusters, dropped_clusters, early_clusters, reserved),
         HEARTH_STRUCT(ClusterDraw, address, counts, vertex_layout, material, base_x, base_y, base_z,
                       grid_step, position_error),
+        HEARTH_STRUCT(ProxyCaster, first_position, first_index, triangle_count, is_closed, distance,
+                      reserved0, reserved1, reserved2),
+        HEARTH_STRUCT(ProxyChunk, instance, first_triangle),
+        HEARTH_STRUCT(ProxyDraw, vertex_count, instance_count, first_vertex, first_instance, triangle_count),
         HEARTH_STRUCT(TileDraw, vertex_count, instance_count, first_vertex, first_instance),
         HEARTH_STRUCT(CullStatistics, empty_instances, outside_instances, occluded_instances, late_instances,
                       visible_instances, clusters, triangles_low, triangles_high),

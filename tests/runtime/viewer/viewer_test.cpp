@@ -62,6 +62,7 @@ TEST(RenderOptions, defaultsFitTheScene)
     EXPECT_EQ(options->memory_budget, 0u) << "all is resident";
     EXPECT_GT(options->shadows.options.max_maps, 0u) << "shadows";
     EXPECT_TRUE(options->shadows.fit_maps);
+    EXPECT_EQ(options->shadows.options.casters, gpu::Casters::clusters);
 }
 
 TEST(RenderOptions, ofWhatFollowsTheLightingAreRead)
@@ -160,6 +161,8 @@ TEST(RenderOptions, everyOptionIsRead)
                                 "--shadow-sphere",
                                 "1,2,3,4",
                                 "--shadow-sphere=-1,0,0,0.5,6",
+                                "--shadow-casters",
+                                "proxies",
                                 "--validate",
                                 "-v",
                                 "--output=b.png",
@@ -196,6 +199,7 @@ TEST(RenderOptions, everyOptionIsRead)
     EXPECT_EQ(shadows.max_maps, 7u);
     EXPECT_EQ(shadows.split_range.far, 20);
     EXPECT_EQ(shadows.depth, gpu::ShadowDepth::d16);
+    EXPECT_EQ(shadows.casters, gpu::Casters::proxies);
     ASSERT_EQ(options->shadows.spheres.size(), 2u);
     EXPECT_EQ(options->shadows.spheres[0].center, (Float3{1, 2, 3}));
     EXPECT_EQ(options->shadows.spheres[0].light, gpu::ShadowSphere::kAllLights);
@@ -253,6 +257,7 @@ TEST(RenderOptions, mistakesAreNamed)
     for (const char* shadows : {"", "yes", "on,maps=4", "maps=0", "maps=65", "texels=1000", "kernel=4",
                                 "bias=0.5", "depth=24", "far=-1", "near=3,far=2", "size=5"})
         expectUsage({"a.hearth", "-o", "a.png", "--shadows", shadows}, "--shadows");
+    expectUsage({"a.hearth", "-o", "a.png", "--shadow-casters", "meshes"}, "neither clusters nor proxies");
     for (const char* sphere : {"", "1,2,3", "1,2,3,0", "1,2,3,4,x", "1,2,3,4,5,6"})
         expectUsage({"a.hearth", "-o", "a.png", "--shadow-sphere", sphere}, "--shadow-sphere");
     expectUsage({"a.hearth", "-o", "a.png", "--view", "shadow-maps", "--shadows", "off"}, "--shadows");

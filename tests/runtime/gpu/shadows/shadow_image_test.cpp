@@ -5,6 +5,7 @@
 #include "tests/runtime/gpu/shadows/depth_filtering.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/lit_scene.h"
+#include "tests/support/scene_proxies.h"
 #include "tests/support/shapes.h"
 
 #include "runtime/gpu/scene/scene_shadows.h"
@@ -12,6 +13,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <numbers>
 
 namespace hearth::test
@@ -612,6 +614,129 @@ TEST_F(ShadowImageTest, aPlaneIsFreeOfAcneAtAllAngles)
                     darker += channel(shadowed.color[i], 0) < channel(lit.color[i], 0) - 1;
                 EXPECT_EQ(darker, 0u) << degrees << " degrees, kernel " << kernel << (spot ? ", spot" : "");
             }
+}
+
+/// Rocks whose proxies are the rocks themselves, beside a floor without one.
+TEST_F(ShadowImageTest, thoseOfProxiesAreThoseOfRays)
+{
+    for (const LightRecord& record :
+         {sun({0.3f, -1, -0.4f}), light(LightType::point, {0.1f, 1.6f, 0.4f}, {0, -1, 0}, 30)})
+    {
+        TestScene test;
+        addProxy(test.model(), 1, shapes::rock(12, 0.25f), 0, true);
+        const PackView pack = buildRocks(test, 12, record);
+        gpu::ShadowOptions options = kFour;
+        options.max_maps = 6;
+        options.casters = gpu::Casters::proxies;
+        const auto scene = upload(pack, {.shadows = options});
+        const Image image = draw(*scene, roomCamera(), kSource);
+        keep(image, "proxies");
+        expectTraced(compare(pack, image, 3));
+        uint32_t clusters = 0, triangles = 0;
+        const auto counters = host().read(renderer().device(), scene->shadows->casters());
+        const auto words = host().read(renderer().device(), scene->shadows->proxyTriangles());
+        ASSERT_TRUE(counters.ok() && words.ok());
+        for (uint32_t map = 0; map < scene->shadows->statistics().maps; ++map)
+        {
+            const size_t layer = scene->shadows->plan().block.maps[map].layer;
+            shared::FrameCounters counted{};
+            uint32_t drawn = 0;
+            std::memcpy(&counted, counters->data() + layer * sizeof(counted), sizeof(counted));
+            std::memcpy(&drawn, words->data() + layer * sizeof(drawn), sizeof(drawn));
+            clusters += counted.drawn_clusters;
+            triangles += drawn;
+        }
+        EXPECT_GT(triangles, 0u);
+        EXPECT_EQ(triangles % (12 * 12 * 12), 0u) << "whole rocks";
+        EXPECT_LE(clusters, scene->shadows->statistics().maps) << "the floor alone";
+    }
+}
+
+/// More maps are stale at once than have lists of their own.
+TEST_F(ShadowImageTest, thoseOfProxiesAreDrawnInRounds)
+{
+    TestScene test;
+    addProxy(test.model(), 1, shapes::rock(12, 0.25f), 0, true);
+    for (int i = 0; i < 12; ++i)
+    {
+        const float across = 0.5f * static_cast<float>(i) - 3;
+        test.addLight(light(LightType::spot, {across, 3, 2}, {-0.3f * across, -3, -2}, 10));
+    }
+    const PackView pack = buildRocks(test, 12, light(LightType::spot, {-2, 4, 1}, {2, -4, -1}, 30));
+    gpu::ShadowOptions options{.max_maps = 13, .texels = 256};
+    const Image expected = drawShadowed(pack, options, kSource);
+    EXPECT_EQ(statistics_.drawn_maps, 13u);
+    options.casters = gpu::Casters::proxies;
+    const Image image = drawShadowed(pack, options, kSource);
+    size_t different = 0;
+    for (size_t i = 0; i < image.color.size(); ++i)
+        different += std::abs(channel(image.color[i], 0) - channel(expected.color[i], 0)) > 4;
+    EXPECT_LE(different, 60u);
+    EXPECT_GT(countDifferent(draw(*upload(pack), roomCamera(), kSource), image), 1000u);
+}
+
+/// A proxy lies around its ball, whose lit half must not be in its shadow, and a mirrored one's either.
+TEST_F(ShadowImageTest, aProxyDoesNotShadowItsOwnSurface)
+{
+    constexpr float kDistance = 0.1f;
+    for (const bool is_closed : {true, false})
+        for (const float mirror : {1.0f, -1.0f})
+            for (const LightRecord& record :
+                 {sun({0.6f, -1, -1}), light(LightType::spot, {-1.5f, 3, 3}, {0.5f, -1, -1}, 60)})
+            {
+                TestScene test;
+                const uint32_t white = test.addMaterial(plainMaterial());
+                const uint32_t ball = test.addMesh(withMaterial(shapes::rock(24, 0), white));
+                mesh::SourceMesh around = shapes::rock(10, 0);
+                for (Float3& position : around.positions)
+                    position = position * (1 + kDistance);
+                addProxy(test.model(), ball, around, kDistance, is_closed);
+                test.addInstance(ball, Affine3{{{mirror, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}});
+                test.addLight(record);
+                const PackView pack = test.build();
+                gpu::ShadowOptions options = kFour;
+                const Image lit = draw(*upload(pack), roomCamera(), kSource);
+                const Image own = drawShadowed(pack, options, kSource);
+                options.casters = gpu::Casters::proxies;
+                const Image image = drawShadowed(pack, options, kSource);
+                keep(image, "ball");
+                size_t darker = 0, bright = 0;
+                for (size_t i = 0; i < lit.color.size(); ++i)
+                {
+                    bright += channel(own.color[i], 0) > 128;
+                    darker += channel(image.color[i], 0) < channel(own.color[i], 0) - 4;
+                }
+                EXPECT_GT(bright, 1500u);
+                EXPECT_EQ(darker, 0u) << is_closed << mirror;
+            }
+}
+
+/// The back of a closed proxy stays where it is: a tile that is thinner than its proxy's distance casts its
+/// whole shadow on a floor that touches it.
+TEST_F(ShadowImageTest, shadowsOfThinProxiesStayAttached)
+{
+    const auto drawTile = [&](gpu::Casters casters)
+    {
+        TestScene test;
+        const uint32_t white = test.addMaterial(plainMaterial());
+        test.addInstance(test.addMesh(withMaterial(makeQuad(8, 8), white)), lying({0, 0, 0}));
+        mesh::SourceMesh tile = shapes::rock(1, 0);
+        const float reach =
+            tile.positions.front().x > 0 ? tile.positions.front().x : -tile.positions.front().x;
+        for (Float3& position : tile.positions)
+            position = {position.x / reach, (position.y / reach + 1) * 0.05f, position.z / reach};
+        const uint32_t mesh = test.addMesh(withMaterial(tile, white));
+        addProxy(test.model(), mesh, tile, 0.5f, true);
+        test.addInstance(mesh, Affine3{});
+        test.addLight(sun({0.3f, -1, -1}));
+        gpu::ShadowOptions options = kFour;
+        options.casters = casters;
+        return drawShadowed(test.build(), options, kSource);
+    };
+    const Image expected = drawTile(gpu::Casters::clusters);
+    const Image drawn = drawTile(gpu::Casters::proxies);
+    keep(drawn, "tile");
+    EXPECT_LE(countDifferent(expected, drawn), 150u);
 }
 
 TEST_F(ShadowImageTest, holesOfAMaskCastNone)
