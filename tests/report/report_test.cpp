@@ -137,6 +137,24 @@ TEST(PageData, isRowsOfWhatThePageShows)
     EXPECT_EQ(data["textures"][0].back().dump(), R"([["Oak","normal"]])");
 }
 
+TEST(PageData, listsProxiesWithTheLargerDistance)
+{
+    Json report = smallReport();
+    EXPECT_EQ(Json::parse(pageData(report.dump())).value()["proxies"].size(), 0u);
+    report["assets"][1]["proxies"] = Json::array();
+    report["assets"][1]["proxies"].push_back({{"mesh", 0},
+                                              {"name", "rock"},
+                                              {"origin", "authored"},
+                                              {"triangles", 12},
+                                              {"vertices", 8},
+                                              {"closed", true},
+                                              {"distance", 0.25},
+                                              {"mesh_distance", 0.5},
+                                              {"bytes", 336}});
+    EXPECT_EQ(Json::parse(pageData(report.dump())).value()["proxies"].dump(),
+              R"([["rock",1,"authored",12,true,0.5,336]])");
+}
+
 TEST(PageData, saysWhichSettingsMakeEachCookerCheaper)
 {
     const Json savings = Json::parse(pageData(smallReport().dump())).value()["savings"];
