@@ -234,14 +234,9 @@ TEST(CommandLine, holdsValuesToTheirRange)
     EXPECT_EQ(getFault(command_line, {"--integer", "-1", "--small", "3", "--large", "1099511627776",
                                       "--number", "0.5", "--distance", "1e-9"}),
               "");
-    const std::vector<std::array<const char*, 2>> wrong{{"--integer", "2"},
-                                                        {"--small", "0"},
-                                                        {"--large", "1099511627777"},
-                                                        {"--number", "0.6"},
-                                                        {"--number", "nan"},
-                                                        {"--number", "-NaN"},
-                                                        {"--distance", "nan"},
-                                                        {"--distance", "0"}};
+    const std::vector<std::array<const char*, 2>> wrong{
+        {"--integer", "2"},  {"--small", "0"},     {"--large", "1099511627777"}, {"--number", "0.6"},
+        {"--number", "nan"}, {"--number", "-NaN"}, {"--distance", "nan"},        {"--distance", "0"}};
     for (const auto& [option, value] : wrong)
         EXPECT_THAT(getFault(command_line, {option, value}), HasSubstr("not in range")) << option;
 }

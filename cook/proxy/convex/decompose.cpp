@@ -2,9 +2,9 @@
 #include "cook/proxy/convex/decompose.h"
 
 #include "cook/mesh/interior_edges.h"
-#include "cook/proxy/surface/half_edges.h"
 #include "cook/proxy/convex/lattice.h"
 #include "cook/proxy/convex/piece.h"
+#include "cook/proxy/surface/half_edges.h"
 #include "formats/base/assert.h"
 #include "formats/base/disjoint_sets.h"
 #include "formats/base/index.h"

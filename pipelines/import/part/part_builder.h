@@ -145,7 +145,7 @@ public:
     std::vector<uint32_t> key_bits;
     std::vector<float> morph_weights;
     std::vector<animation_compression::ClipStatistics>
-        clip_statistics; ///< of compressed animations, for the report
+        clip_statistics;        ///< of compressed animations, for the report
     proxy::ProxyTables proxies; ///< that an artist made
     SourceCounts counts;
     std::optional<SourceSky> sky; ///< for writeSky
