@@ -44,11 +44,11 @@ ProxyCasters findProxyCasters(const formats::PackView& pack)
         ++proxy_counts[proxy.mesh];
     for (const formats::ProxyRecord& proxy : pack.proxies())
     {
-        // A gap between a surface and a proxy in front of it is no wider than either: a proxy of a hollow body
-        // is far from what is inside, and one that closes a hole is far from all of it.
+        // A gap between a surface and a proxy in front of it is no wider than either: a proxy of a hollow
+        // body is far from what is inside, and one that closes a hole is far from all of it.
         const float gap = std::min(proxy.distance, proxy.mesh_distance);
-        // Light that grazes a ball of radius R enters a shell at distance d around it through a plane that lies
-        // (2 R + d) / (R + d) d before the point that it grazes, which is less than 2 d.
+        // Light that grazes a ball of radius R enters a shell at distance d around it through a plane that
+        // lies (2 R + d) / (R + d) d before the point that it grazes, which is less than 2 d.
         const float distance = 2 * gap;
         if (proxy_counts[proxy.mesh] > 1 || !std::isfinite(distance) || isDeformed(pack, proxy.mesh) ||
             !isSolidMesh(pack, proxy.mesh))

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/gpu_shared/proxy_casters.h"
+#include "formats/gpu_shared/shadows/proxy_casters.h"
 #include "formats/pack/pack_view.h"
 
 #include <vector>
@@ -18,8 +18,8 @@ struct ProxyCasters
 };
 
 /// Find the proxies that stand for all of a mesh in shadow maps: the only ones of meshes that are not
-/// deformed, of materials that are opaque and lit, and at a known distance from their mesh. Others have holes,
-/// a pose, or parts that cast no shadow, which a proxy lacks.
+/// deformed, of materials that are opaque and lit, and at a known distance from their mesh. Others have
+/// holes, a pose, or parts that cast no shadow, which a proxy lacks.
 ProxyCasters findProxyCasters(const formats::PackView& pack);
 
 } // namespace hearth::shared

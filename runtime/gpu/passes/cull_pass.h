@@ -30,7 +30,7 @@ public:
     /// pyramid is built, kPhaseLate, which appends to the visible list and adds draws. Outside a render pass.
     /// Results are visible to later compute shaders and transfers. Clobbers the compute state.
     ///
-    /// view  of the scene's frame; its constants are written, and its draws of materials and proxies are empty
+    /// view  of the scene's frame; its constants are written, its draws of materials and proxies are empty
     void record(const Device& device, VkCommandBuffer commands, const Scene& scene, const SceneView& view,
                 VkDescriptorSet occlusion, uint32_t phase) const;
 

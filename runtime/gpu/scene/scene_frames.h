@@ -3,8 +3,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/gpu_shared/proxy_casters.h"
 #include "formats/gpu_shared/records.h"
+#include "formats/gpu_shared/shadows/proxy_casters.h"
 #include "runtime/gpu/vulkan/pipelines.h"
 
 #include <array>

@@ -4,7 +4,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "formats/gpu_shared/bindings.h"
-#include "formats/gpu_shared/proxy_casters.h"
+#include "formats/gpu_shared/shadows/proxy_casters.h"
 #include "formats/gpu_shared/push_constants.h"
 
 layout(local_size_x = kGroupProxies) in;

@@ -1,9 +1,9 @@
-// Draws the proxies that cast shadows into a map, depth only: an instance of the draw is a chunk of triangles.
+// Draws the proxies that cast shadows into a map, depth only. A chunk of triangles is an instance.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "formats/gpu_shared/bindings.h"
-#include "formats/gpu_shared/proxy_casters.h"
+#include "formats/gpu_shared/shadows/proxy_casters.h"
 #include "formats/gpu_shared/push_constants.h"
 #include "formats/gpu_shared/record_values.h"
 #include "runtime/shaders/draw/caster_triangle.glsl"

@@ -3,7 +3,7 @@
 
 struct CasterTriangle
 {
-    vec3 points[3]; // relative to the light's origin, world axes: the corner that is drawn, then the others in order
+    vec3 points[3]; // relative to the light's origin, world axes: the drawn corner, then the others in order
     vec3 normal;    // unit
     vec3 middle;
     float nearest; // as for shadowFacing
@@ -26,9 +26,9 @@ CasterTriangle casterTriangle(ShadowLight light, vec3 points[3])
     return triangle;
 }
 
-// Clip position of the corner, moved away from the light by the error and by the slope-scaled offset of the triangle's
-// own plane. Vertex normals would round off silhouettes in the map. offset_share: one value for the triangle, so that
-// it stays flat.
+// Clip position of the corner, moved away from the light by the error and by the slope-scaled offset of the
+// triangle's own plane. Vertex normals would round off silhouettes in the map. offset_share: one value for
+// the triangle, so that it stays flat.
 vec4 casterClip(ShadowLight light, ShadowMap map, CasterTriangle triangle, float error, float offset_share)
 {
     return shadowCasterClip(light, map, triangle.points[0], triangle.normal, triangle.nearest, error, offset_share);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/runtime/c/c_fixture.h"
 
-#include "tests/support/scene_proxies.h"
+#include "tests/runtime/scene_proxies.h"
 #include "tests/support/shapes.h"
 
 namespace hearth::test

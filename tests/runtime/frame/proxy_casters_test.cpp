@@ -3,7 +3,7 @@
 #include "runtime/frame/proxy_casters.h"
 #include "runtime/frame/shadow_fit.h"
 #include "runtime/gpu/scene/shadow_cache.h"
-#include "tests/support/scene_proxies.h"
+#include "tests/runtime/scene_proxies.h"
 #include "tests/support/shapes.h"
 #include "tests/support/test_scene.h"
 
@@ -111,8 +111,8 @@ TEST(ProxyCasters, trianglesThatFaceTheLightMoveByAllOfTheDistance)
     }
 }
 
-/// Levels of a mesh whose proxy casts come and go without a change of shadows, and the eye has no say in them;
-/// moves do.
+/// Levels of a mesh whose proxy casts come and go without a change of shadows, and the eye has no say in
+/// them; moves do.
 TEST(ProxyCasters, mapsStayWhilePagesComeAndGoAndTheEyeMoves)
 {
     RockScene rock;

@@ -9,8 +9,8 @@
 #include "tests/runtime/gpu/brick_scene.h"
 #include "tests/runtime/gpu/deformed_scene.h"
 #include "tests/runtime/gpu/interface_check.h"
+#include "tests/runtime/scene_proxies.h"
 #include "tests/runtime/shaders/shader_list.h"
-#include "tests/support/scene_proxies.h"
 #include "tests/support/shapes.h"
 
 #include <algorithm>

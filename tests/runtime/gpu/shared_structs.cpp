@@ -7,11 +7,11 @@
 #include "formats/gpu_shared/gather.h"
 #include "formats/gpu_shared/light_cells.h"
 #include "formats/gpu_shared/material_tiles.h"
-#include "formats/gpu_shared/proxy_casters.h"
 #include "formats/gpu_shared/push_constants.h"
 #include "formats/gpu_shared/receivers/receiver_points.h"
 #include "formats/gpu_shared/shading.h"
 #include "formats/gpu_shared/shadow.h"
+#include "formats/gpu_shared/shadows/proxy_casters.h"
 
 #include <type_traits>
 

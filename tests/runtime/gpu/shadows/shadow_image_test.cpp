@@ -3,9 +3,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "tests/reference/tracer/reference_renderer.h"
 #include "tests/runtime/gpu/shadows/depth_filtering.h"
+#include "tests/runtime/scene_proxies.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/lit_scene.h"
-#include "tests/support/scene_proxies.h"
 #include "tests/support/shapes.h"
 
 #include "runtime/gpu/scene/scene_shadows.h"

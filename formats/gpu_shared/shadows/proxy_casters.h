@@ -1,5 +1,5 @@
-// Proxies that cast the shadows of their meshes: their records, and the depth bias that keeps a surface out of
-// the shadow of its own proxy. One source for C++ and GLSL. See runtime/gpu/README.md, "Shadows".
+// Proxies that cast the shadows of their meshes: their records, and the depth bias that keeps a surface out
+// of the shadow of its own proxy. One source for C++ and GLSL. See runtime/gpu/README.md, "Shadows".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #ifndef HEARTH_SHARED_PROXY_CASTERS_H
 #define HEARTH_SHARED_PROXY_CASTERS_H
@@ -15,7 +15,8 @@ struct ProxyCaster
     uint first_index;    ///< among the indices of all proxies
     uint triangle_count; ///< 0: the mesh casts its own shadow
     uint is_closed;      ///< 1: it has no boundary
-    float distance;      ///< metres in object space between a surface and its proxy in front of it
+    float distance;      ///< metres in object space by which triangles are moved from the light: twice the
+                         ///< widest gap between a surface and its proxy in front of it
     uint reserved0;
     uint reserved1;
     uint reserved2;
