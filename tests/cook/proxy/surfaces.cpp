@@ -3,10 +3,10 @@
 
 #include "formats/base/double3.h"
 #include "formats/base/index.h"
+#include "tests/support/proxies/manifold.h"
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <set>
 #include <utility>
@@ -15,48 +15,6 @@ namespace hearth::test
 {
 
 using proxy::Surface;
-
-namespace
-{
-
-using DirectedEdge = std::pair<uint32_t, uint32_t>;
-
-std::map<DirectedEdge, size_t> countDirectedEdges(const Surface& surface)
-{
-    std::map<DirectedEdge, size_t> count;
-    for (size_t t = 0; t < surface.triangleCount(); ++t)
-        for (size_t k = 0; k < 3; ++k)
-            ++count[{surface.indices[3 * t + k], surface.indices[3 * t + (k + 1) % 3]}];
-    return count;
-}
-
-/// Count the fans at a vertex: triangles that edges at the vertex connect.
-/// opposite  for each triangle at the vertex, its two other corners in order
-size_t countFans(std::vector<DirectedEdge> opposite)
-{
-    size_t fans = 0;
-    while (!opposite.empty())
-    {
-        ++fans;
-        std::set<uint32_t> reached{opposite.back().first, opposite.back().second};
-        opposite.pop_back();
-        for (bool grows = true; grows;)
-        {
-            grows = false;
-            for (size_t i = 0; i < opposite.size(); ++i)
-                if (reached.contains(opposite[i].first) || reached.contains(opposite[i].second))
-                {
-                    reached.insert({opposite[i].first, opposite[i].second});
-                    opposite.erase(opposite.begin() + static_cast<ptrdiff_t>(i));
-                    grows = true;
-                    break;
-                }
-        }
-    }
-    return fans;
-}
-
-} // namespace
 
 Surface makeBox(Float3 low, Float3 high)
 {
@@ -131,41 +89,20 @@ double signedVolume(const Surface& surface)
 
 std::string findDefect(const Surface& surface)
 {
-    std::vector<std::vector<DirectedEdge>> opposite(surface.positions.size());
-    for (size_t t = 0; t < surface.triangleCount(); ++t)
-        for (size_t k = 0; k < 3; ++k)
-        {
-            const uint32_t a = surface.indices[3 * t + k], b = surface.indices[3 * t + (k + 1) % 3],
-                           c = surface.indices[3 * t + (k + 2) % 3];
-            if (a == b)
-                return "triangle " + std::to_string(t) + " names a vertex twice";
-            opposite[a].emplace_back(b, c);
-        }
-    for (const auto& [edge, count] : countDirectedEdges(surface))
-        if (count > 1)
-            return "edge " + std::to_string(edge.first) + " " + std::to_string(edge.second) + " has " +
-                   std::to_string(count) + " triangles that pass it the same way";
-    for (size_t v = 0; v < opposite.size(); ++v)
-        if (const size_t fans = countFans(opposite[v]); fans != 1)
-            return "vertex " + std::to_string(v) + " has " + std::to_string(fans) + " fans";
-    return "";
+    return findManifoldDefect(surface.positions.size(), surface.indices);
 }
 
 size_t countBoundaryEdges(const Surface& surface)
 {
-    const std::map<DirectedEdge, size_t> edges = countDirectedEdges(surface);
-    return static_cast<size_t>(
-        std::count_if(edges.begin(), edges.end(),
-                      [&](const auto& edge) {
-                          return !edges.contains({edge.first.second, edge.first.first});
-                      }));
+    return countOpenEdges(surface.indices);
 }
 
 int64_t eulerCharacteristic(const Surface& surface)
 {
-    std::set<DirectedEdge> edges;
-    for (const auto& [edge, count] : countDirectedEdges(surface))
-        edges.insert(std::minmax(edge.first, edge.second));
+    std::set<std::pair<uint32_t, uint32_t>> edges;
+    for (size_t t = 0; t < surface.triangleCount(); ++t)
+        for (size_t k = 0; k < 3; ++k)
+            edges.insert(std::minmax(surface.indices[3 * t + k], surface.indices[3 * t + (k + 1) % 3]));
     return static_cast<int64_t>(surface.positions.size()) - static_cast<int64_t>(edges.size()) +
            static_cast<int64_t>(surface.triangleCount());
 }

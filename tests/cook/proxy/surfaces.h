@@ -1,4 +1,4 @@
-// Surfaces for tests of proxies, and a plain check of manifolds.
+// Surfaces for tests of proxies.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -28,9 +28,7 @@ void turn(proxy::Surface& surface, size_t triangle);
 /// Return the volume that a closed surface encloses, negative if it faces inwards.
 double signedVolume(const proxy::Surface& surface);
 
-/// Return what keeps a surface from being a manifold with a consistent orientation, by plain counting;
-/// empty if nothing does: each directed edge once, each vertex with one fan of triangles, each position
-/// with a triangle.
+/// Return what keeps a surface from being a manifold, as findManifoldDefect does.
 std::string findDefect(const proxy::Surface& surface);
 
 /// Count the edges with one triangle.
