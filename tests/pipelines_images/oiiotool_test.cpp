@@ -4,7 +4,7 @@
 #include "formats/base/half.h"
 #include "pipelines/import/images/decode.h"
 #include "tests/pipelines_images/images_fixture.h"
-#include "tests/support/sandbox.h"
+#include "tests/pipelines_images/oiiotool.h"
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -12,8 +12,6 @@
 #include <OpenEXR/ImfMultiPartOutputFile.h>
 #include <OpenEXR/ImfOutputPart.h>
 #include <OpenEXR/ImfPartType.h>
-
-#include <sstream>
 
 namespace hearth::test
 {
@@ -25,16 +23,6 @@ using images::Format;
 
 constexpr int kSide = 64; ///< of all images: the smallest that oiiotool writes as JPEG 2000
 constexpr const char* kChannels[] = {"R", "G", "B", "A"};
-
-/// Run a program of OpenImageIO with words that blanks separate.
-ProgramEnd runTool(Sandbox& folder, const std::string& words)
-{
-    std::istringstream stream("/usr/bin/" + words);
-    std::vector<std::string> command;
-    for (std::string word; stream >> word;)
-        command.push_back(word);
-    return folder.run(command);
-}
 
 /// Return the texels of a decoded file: shares of the full range, or floats, as RGBA.
 std::vector<float> listTexels(const std::string& name, const Result<import::DecodedImage>& image)
@@ -100,12 +88,6 @@ std::string drawPsd()
     for (uint64_t i = 0; i < uint64_t{3} * kSide * kSide; ++i)
         image.samples.push_back(i * i * 4021 / 3 & 0xFFFF);
     return makePsd(image);
-}
-
-std::string noise(const std::string& range, int seed, int channel_count)
-{
-    return " --pattern noise:type=uniform:" + range + ":seed=" + std::to_string(seed) + " 64x64 " +
-           std::to_string(channel_count);
 }
 
 } // namespace
