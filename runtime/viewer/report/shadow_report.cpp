@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/report/shadow_report.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 
@@ -55,7 +56,9 @@ Result<ShadowCounts> countShadows(VulkanHost& host, const gpu::Renderer& rendere
     {
         HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> words,
                                 host.read(renderer.device(), shadows.proxyTriangles()));
-        std::memcpy(proxy_triangles.data(), words.data(), words.size());
+        // both buffers are longer than their records: sizes are rounded up
+        std::memcpy(proxy_triangles.data(), words.data(),
+                    std::min(words.size(), proxy_triangles.size() * sizeof(uint32_t)));
     }
     ShadowCounts counts{
         .maps = shadows.statistics(), .map_bytes = shadows.allocatedBytes(), .depth = shadows.depth()};
