@@ -22,6 +22,10 @@ constexpr double kSearchSlack = 1.1;
 // size, one triangle that spans all of the other surface takes about a million.
 constexpr size_t kMaxPieces = size_t{1} << 22;
 
+// A corner within this part of a piece's radius of a border is on it. Without it rounding would cut slivers
+// as long as the piece off it, again and again.
+constexpr double kOnBorder = 1e-9;
+
 // Triangles of a block are searched in parallel. They use the distances of earlier blocks, not of each other,
 // so the result does not depend on the threads.
 constexpr size_t kBlock = 4096;
@@ -133,7 +137,7 @@ void addFan(const Polygon& polygon, TriangleId near, TriangleId cut_by, std::vec
 /// over one triangle alone.
 /// returns  false, and appends nothing, if the border does not cross the piece: between two triangles that
 ///          are nearly as near, such cuts would go on without end
-bool cutAlong(const Piece& piece, const Corners3& border, std::vector<Piece>& pieces)
+bool cutAlong(const Piece& piece, double radius, const Corners3& border, std::vector<Piece>& pieces)
 {
     const size_t first = pieces.size();
     Polygon inside(piece.corners.begin(), piece.corners.end());
@@ -143,8 +147,13 @@ bool cutAlong(const Piece& piece, const Corners3& border, std::vector<Piece>& pi
     for (size_t k = 0; k < 3 && !inside.empty(); ++k)
     {
         const Double3 outward = cross(border[(k + 1) % 3] - border[k], normal);
-        cut(
-            inside, [&](Double3 p) { return dot(p - border[k], outward); }, rest, outside);
+        const double on_border = kOnBorder * radius * length(outward);
+        const auto height = [&](Double3 p)
+        {
+            const double above = dot(p - border[k], outward);
+            return std::abs(above) <= on_border ? 0 : above;
+        };
+        cut(inside, height, rest, outside);
         addFan(outside, piece.near, piece.near, pieces);
         inside.swap(rest);
     }
@@ -155,10 +164,12 @@ bool cutAlong(const Piece& piece, const Corners3& border, std::vector<Piece>& pi
     return false;
 }
 
-/// True if cutting along a triangle gains more than halving.
-bool worthCutting(const Piece& piece, double radius, const Corners3& triangle)
+/// True if cutting along a triangle gains more than halving. A piece that is no larger than the allowed
+/// distance is soon small enough.
+bool worthCutting(const Piece& piece, double radius, double allowed, const Corners3& triangle)
 {
-    return piece.cut_by != piece.near && radius <= 2 * pieceRadius(triangle, pieceCenter(triangle));
+    return piece.cut_by != piece.near && radius > allowed &&
+           radius <= 2 * pieceRadius(triangle, pieceCenter(triangle));
 }
 
 /// Bound the distance of one triangle's points to a surface. Branch and bound: a piece is done when it lies
@@ -185,13 +196,14 @@ TriangleBound boundTriangle(const Corners3& triangle, const SurfaceTree& other, 
             found.sure = std::max(found.sure, distance);
         const Corners3 near = other.triangle(nearest.triangle);
         const double upper = std::min(distance + radius, farthestCorner(piece.corners, near));
-        const bool done = upper <= kSearchSlack * std::max(known, found.sure);
+        const double allowed = kSearchSlack * std::max(known, found.sure);
+        const bool done = upper <= allowed;
         if (done || pieces >= kMaxPieces)
         {
             found.upper = std::max(found.upper, upper);
             found.loose_pieces += done ? 0 : 1;
         }
-        else if (!worthCutting(piece, radius, near) || !cutAlong(piece, near, open))
+        else if (!worthCutting(piece, radius, allowed, near) || !cutAlong(piece, radius, near, open))
             halve(piece, open);
     }
     return found;

@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <random>
 
 #include <tbb/global_control.h>
@@ -178,6 +179,42 @@ TEST(SurfaceBound, endsBetweenTwoTrianglesThatAreNearlyAsNear)
     b.indices = {0, 1, 2, 3, 4, 5};
     EXPECT_EQ(boundSurfaces(MeshSurface(a), MeshSurface(b), 0).loose_pieces, 0u);
     expectTight(a, b);
+}
+
+TEST(SurfaceBound, endsWhereCutsLeaveSlivers)
+{
+    // the chest of a fox and its proxy: pieces much smaller than the distance were cut along one triangle and
+    // another, and rounding left slivers as long as the piece
+    SourceMesh a, b;
+    a.positions = {{-8.02685547f, 35.2236328f, -65.0991211f},
+                   {-4.77001953f, 23.9956055f, -78.0830078f},
+                   {0.0009765625f, 16.2451172f, -71.2070312f}};
+    a.indices = {0, 1, 2};
+    const Float3 front{-2.93600583f, 14.7740917f, -86.0077515f}, side{-6.40307093f, 17.834837f, -72.8394547f},
+        low{-3.90036845f, 15.1836386f, -69.9520416f}, middle{0, 14.2964172f, -69.4144058f};
+    b.positions = {low,
+                   front,
+                   middle,
+                   side,
+                   front,
+                   low,
+                   {-4.76979542f, 23.9955254f, -78.0829391f},
+                   front,
+                   side,
+                   front,
+                   {0, 13.9951525f, -85.6884308f},
+                   middle,
+                   {-4.76979542f, 23.9955254f, -78.0829391f},
+                   side,
+                   {-7.79518318f, 34.607151f, -64.6526642f},
+                   side,
+                   low,
+                   {-8.62242031f, 25.1335049f, -59.1995926f}};
+    b.indices.resize(b.positions.size());
+    std::iota(b.indices.begin(), b.indices.end(), 0u);
+    const SurfaceBound bound = clusters::boundSurfaceSides(MeshSurface(a), MeshSurface(b), 4.75380175).a;
+    EXPECT_EQ(bound.loose_pieces, 0u);
+    EXPECT_LE(bound.upper, 1.1 * 4.75380175 * (1 + 1e-9));
 }
 
 } // namespace
