@@ -13,6 +13,9 @@ namespace
 
 using namespace settings;
 
+constexpr std::string_view kInside = "bricks.inside";
+constexpr std::string_view kOfProxies = "proxies";
+
 std::vector<Setting> makeBrickSettings()
 {
     return {
@@ -27,6 +30,11 @@ std::vector<Setting> makeBrickSettings()
                               "--voxel-size", "METRES")),
         withOption({"bricks.memory", Kind::size, "bytes that the bricks may take on the GPU", "20M"},
                    "--brick-memory", "SIZE"),
+        withOption(choiceSetting(std::string(kInside),
+                                 "what light leaks into through gaps of walls: proxies, not into closed "
+                                 "proxies of meshes; source, through all gaps larger than voxels",
+                                 kOfProxies, {kOfProxies, "source"}),
+                   "--brick-inside", "NAME"),
     };
 }
 
@@ -42,6 +50,11 @@ Result<Arguments> makeBrickArguments(const Values& values)
     return arguments;
 }
 
+bool closesLeaks(const Values& values)
+{
+    return choiceOr(values, kInside, kOfProxies) == kOfProxies;
+}
+
 } // namespace
 
 Cooker describeBricks()
@@ -50,6 +63,8 @@ Cooker describeBricks()
             .scope = settings::Scope::pack,
             .switched_by = "bricks.mode",
             .reads = {"import", "clusters", "textures"},
+            .reads_of_some = {"proxy"},
+            .needsSome = closesLeaks,
             .reads_of_pack = {"probe"},
             .link_option = "--bricks",
             .has_statistics = true,

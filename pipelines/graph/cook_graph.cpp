@@ -178,6 +178,25 @@ Status addSource(size_t source, bool is_listed, Draft& draft)
     return success();
 }
 
+/// Add the part that a source's action makes, after the option by which programs know parts of some sources.
+void addPartOfSome(const Draft& draft, size_t source, size_t part_action, Action& action)
+{
+    addWord(action, cookers::findCooker(draft.graph.actions[part_action].cooker)->link_option);
+    addInput(action, sourcePartInput(draft.graph, part_action), fmt::format("{}=", source));
+}
+
+/// Add the parts that a cooker of the pack reads of some sources.
+void addReadsOfSome(const Cooker& cooker, const Draft& draft, Action& action)
+{
+    if (cooker.needsSome != nullptr && !cooker.needsSome(draft.settings.values_of_pack))
+        return;
+    for (size_t source = 0; source < draft.actions_of_source.size(); ++source)
+        for (const std::string_view read : cooker.reads_of_some)
+            if (const auto found = draft.actions_of_source[source].find(read);
+                found != draft.actions_of_source[source].end())
+                addPartOfSome(draft, source, found->second, action);
+}
+
 /// Add an action that runs once for all sources. errors: those of finishAction
 Status addCookerOfPack(const Cooker& cooker, Draft& draft)
 {
@@ -195,6 +214,7 @@ Status addCookerOfPack(const Cooker& cooker, Draft& draft)
             addInput(action, cooker.reads_statistics ? sourceStatisticsInput(draft.graph, actions.at(read))
                                                      : sourcePartInput(draft.graph, actions.at(read)));
         }
+    addReadsOfSome(cooker, draft, action);
     for (const std::string_view read : cooker.reads_of_pack)
         if (const auto found = draft.actions_of_pack.find(read); found != draft.actions_of_pack.end())
         {
@@ -258,10 +278,8 @@ void addPartsOfSomeSources(const Draft& draft, Action& link)
         for (const auto& [name, index] : draft.actions_of_source[source])
         {
             const Cooker& cooker = *cookers::findCooker(name);
-            if (!cooker.is_linked || cooker.link_option.empty())
-                continue;
-            addWord(link, cooker.link_option);
-            addInput(link, sourcePartInput(draft.graph, index), fmt::format("{}=", source));
+            if (cooker.is_linked && !cooker.link_option.empty())
+                addPartOfSome(draft, source, index, link);
         }
 }
 

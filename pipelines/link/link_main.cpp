@@ -2,32 +2,16 @@
 // specular occlusion, light probes, a grid of bricks and receivers.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
+#include "cook/tools/part_of_source.h"
 #include "formats/base/program.h"
 #include "pipelines/link/link.h"
 
-#include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <string>
 #include <vector>
 
 namespace
 {
-
-/// Give a source its proxy part.
-/// text  "N=PART"
-/// returns  false if it names no source
-bool addProxyPart(const std::string& text, std::vector<hearth::link::SourceParts>& sources)
-{
-    const size_t equals = text.find('=');
-    size_t source = 0;
-    const auto parsed = std::from_chars(text.data(), text.data() + std::min(equals, text.size()), source);
-    if (equals == std::string::npos || parsed.ec != std::errc() || parsed.ptr != text.data() + equals ||
-        source >= sources.size())
-        return false;
-    sources[source].proxy_part = text.substr(equals + 1);
-    return true;
-}
 
 int program(int argc, char** argv)
 {
@@ -73,12 +57,14 @@ int program(int argc, char** argv)
     std::vector<hearth::link::SourceParts> sources;
     for (size_t i = 0; i < parts.size(); i += 4)
         sources.push_back({parts[i], parts[i + 1], parts[i + 2], parts[i + 3]});
-    for (const std::string& proxy : proxies)
-        if (!addProxyPart(proxy, sources))
-            return hearth::reportFailure({hearth::Issue::usage, "hearth-link", "--proxies",
-                                          proxy +
-                                              ": the number of a source is needed before the part, below " +
-                                              std::to_string(sources.size()) + ", as in 0=rock.proxy.part"});
+    for (const std::string& text : proxies)
+    {
+        const hearth::Result<hearth::tools::PartOfSource> proxy =
+            hearth::tools::parsePartOfSource(text, sources.size(), "hearth-link", "--proxies");
+        if (!proxy.ok())
+            return hearth::reportFailure(proxy.error());
+        sources[proxy->source].proxy_part = proxy->path;
+    }
     const hearth::Status status =
         hearth::link::linkPack(sources, output, pack_parts, skipped, texture_budget);
     return status.ok() ? 0 : reportFailure(status.error());

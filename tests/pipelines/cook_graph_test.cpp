@@ -291,6 +291,32 @@ TEST(CookGraph, takesProxiesOfArtistsFromTheImportUnlessThereIsMoreToDo)
     EXPECT_NE(std::ranges::search(named, Words{"--proxy", "hull.obj"}).begin(), named.end());
 }
 
+TEST(CookGraph, givesBricksTheProxiesOfSourcesUnlessLightMayLeakIn)
+{
+    CookSettings settings;
+    settings.sources = {"a.obj", "b.obj"};
+    settings.output = "all.hearth";
+    const settings::Values plain{{"visibility.mode", {"\"off\"", ""}}, {"textures.families", {"[]", ""}}};
+    settings.values_of_source.assign(2, plain);
+    settings.values_of_source[1]["proxy.from"] = {"\"clean\"", ""};
+    settings.values_of_pack = {{"bricks.mode", {"\"on\"", ""}}};
+    Words bricks{"bin/hearth-bricks"};
+    for (int source = 0; source < 2; ++source)
+        bricks.insert(bricks.end(), {"{import.part}", "{clusters.part}", "{textures.part}"});
+    const auto hasBricks = [&](const Words& proxies)
+    {
+        Words words = bricks;
+        words.insert(words.end(), proxies.begin(), proxies.end());
+        words.insert(words.end(), {"-o", "{bricks.part}", "--stats", "{bricks.json}"});
+        return std::ranges::count(getCommands(makeCookGraph(settings).value()), words) == 1;
+    };
+    EXPECT_TRUE(hasBricks({"--proxies", "1={proxy.part}"}));
+    settings.values_of_pack["bricks.inside"] = {"\"proxies\"", ""};
+    EXPECT_TRUE(hasBricks({"--proxies", "1={proxy.part}"}));
+    settings.values_of_pack["bricks.inside"] = {"\"source\"", ""};
+    EXPECT_TRUE(hasBricks({}));
+}
+
 TEST(CookGraph, linksPlainTexturesWhereNoFamilyIsWanted)
 {
     CookSettings settings = allSettings();

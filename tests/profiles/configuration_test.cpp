@@ -256,7 +256,7 @@ TEST(Arguments, giveEachCookerItsOwnSettings)
         "proxy.convex_parts = 4\nproxy.convex_error = 0.1\n"
         "proxy.bindings = true\nproxy.alpha = 0.1\nproxy.offset = 0.01\n"
         "bricks.mode = 'on'\nbricks.voxel_size = 0.5\n"
-        "bricks.memory = '1M'\nenvironment.file = 'sky.hdr'\n"
+        "bricks.memory = '1M'\nbricks.inside = 'source'\nenvironment.file = 'sky.hdr'\n"
         "receivers.mode = 'on'\nreceivers.texels_per_metre = 8\nreceivers.lights = 3\n"
         "receivers.codec = 'rgbm'\nreceivers.bounces = 2\n"
         "reflections.probes = ['1,2,3', '1,1,1:0,0,0:4,3,5:0.5']\nreflections.face_size = 32\n",

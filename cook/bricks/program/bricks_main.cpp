@@ -28,6 +28,7 @@ struct Arguments
     std::vector<std::string> inputs; ///< parts, or with `rays` the file to march through
     std::string output;
     std::string rays;
+    std::vector<std::string> proxies;
     std::string probe; ///< part with the probe of the sky, or empty
     std::string statistics;
     double voxel_size = 0;
@@ -47,6 +48,10 @@ void warn(const GridStatistics& statistics, const std::string& output)
     if (statistics.left_out.animated + statistics.left_out.deformed > 0)
         print(std::to_string(statistics.left_out.animated) + " moving and " +
               std::to_string(statistics.left_out.deformed) + " deformed instances have no bricks");
+    if (statistics.leaks.loose_surfaces > 0)
+        print(std::to_string(statistics.leaks.loose_surfaces) + " of " +
+              std::to_string(statistics.leaks.surfaces) +
+              " closed proxies close no gaps: they are more than four voxels away from their meshes");
     if (statistics.dropped.bricks > 0)
     {
         char distance[32];
@@ -92,7 +97,15 @@ Status cookNoGrid(const Arguments& arguments, const std::string& reason)
 
 Status cook(const Arguments& arguments)
 {
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<SourceParts> sources, openSources(arguments.inputs));
+    std::vector<tools::PartOfSource> proxies;
+    for (const std::string& text : arguments.proxies)
+    {
+        HEARTH_ASSIGN_OR_RETURN(
+            tools::PartOfSource proxy,
+            tools::parsePartOfSource(text, arguments.inputs.size() / 3, "hearth-bricks", "--proxies"));
+        proxies.push_back(std::move(proxy));
+    }
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<SourceParts> sources, openSources(arguments.inputs, proxies));
     HEARTH_ASSIGN_OR_RETURN(const StaticScene scene, collectStaticScene(sources));
     HEARTH_ASSIGN_OR_RETURN(const SceneSky sky, SceneSky::open(scene, arguments.probe));
     if (arguments.only_if_needed)
@@ -189,6 +202,11 @@ void addOptions(cli::CommandLine& app, Arguments& arguments)
     const cli::Option probe = app.addOption(
         "--probe", arguments.probe,
         "probe part of the sky that lights the scene; else that of a source, or the default sky");
+    const cli::Option proxies =
+        app.addOption("--proxies", arguments.proxies,
+                      "N=PART: proxy part of source N, counted from 0; no light leaks into its closed "
+                      "proxies through gaps of their meshes; once for each source that has one")
+            .oneValueEach();
     const cli::Option jobs =
         app.addOption("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
     cli::Option march = app.addOption(
@@ -197,7 +215,7 @@ void addOptions(cli::CommandLine& app, Arguments& arguments)
         "hit,x,y,z,face,t for each ray: 1, the first solid voxel, the face by which it is entered (none "
         "where the ray starts inside) and the distance in metres; 0,,,,, where it meets none");
     for (const cli::Option& option :
-         {voxel_size, min, max, seed, memory, error, only_if_needed, statistics, probe, jobs})
+         {voxel_size, min, max, seed, memory, error, only_if_needed, statistics, probe, proxies, jobs})
         march.excludes(option);
     app.setFooter(
         "Examples:\n"

@@ -81,6 +81,10 @@ Result<std::optional<CookedGrid>> cookAt(const StaticScene& scene, const GridSet
         voxelise(scene, findCutClusters(scene, static_cast<float>(error)), frame, foci, settings.memory));
     computeOpacities(voxelised.grid);
     blendSides(voxelised.grid);
+    const std::vector<ClosedProxy> proxies = findClosedProxies(scene);
+    const LeakStatistics leaks =
+        closeLeaks(voxelised.grid, proxies.size(),
+                   [&](size_t i) { return makeClosedSurface(scene, proxies[i], frame); });
     const double voxelise_seconds = secondsSince(start);
 
     start = std::chrono::steady_clock::now();
@@ -92,6 +96,7 @@ Result<std::optional<CookedGrid>> cookAt(const StaticScene& scene, const GridSet
         return std::optional<CookedGrid>();
     CookedGrid grid = cooked(scene, voxelised, faced);
     grid.statistics.error = error;
+    grid.statistics.leaks = leaks;
     grid.statistics.voxelise_seconds = voxelise_seconds;
     grid.statistics.faces_seconds = secondsSince(start);
     return std::optional(std::move(grid));
@@ -226,6 +231,9 @@ std::string statisticsJson(const GridStatistics& statistics)
     json["clusters"] = statistics.counts.clusters;
     json["triangles"] = statistics.counts.triangles;
     json["pieces"] = statistics.counts.pieces;
+    json["leaks"] = {{"surfaces", statistics.leaks.surfaces},
+                     {"loose_surfaces", statistics.leaks.loose_surfaces},
+                     {"voxels", statistics.leaks.voxels}};
     json["bricks"] = statistics.bricks;
     json["solid_voxels"] = statistics.solid_voxels;
     json["opaque_voxels"] = statistics.opaque_voxels;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cook/bricks/grid/grid_settings.h"
+#include "cook/bricks/voxels/leaks.h"
 #include "cook/bricks/voxels/memory_budget.h"
 #include "cook/bricks/voxels/voxelise.h"
 
@@ -19,6 +20,7 @@ struct GridStatistics
     ExcludedInstances left_out;
     uint64_t instances = 0;
     VoxeliseStatistics counts;
+    LeakStatistics leaks;
     uint64_t bricks = 0;
     uint64_t solid_voxels = 0;
     uint64_t opaque_voxels = 0;

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "cook/tools/part_of_source.h"
 #include "formats/pack/pack_view.h"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,11 +19,14 @@ struct SourceParts
     formats::PackView scene; ///< import part: nodes, instances, materials, cameras
     formats::PackView clusters;
     formats::PackView textures;
+    std::optional<formats::PackView> proxies{}; ///< nothing: the source has none
 };
 
 /// Open the import, clusters and textures part of each source.
-/// paths  three for each source, in this order
-/// errors: those of tools::openPart
-Result<std::vector<SourceParts>> openSources(std::span<const std::string> paths);
+/// paths    three for each source, in this order
+/// proxies  proxy parts of some of them
+/// errors: those of tools::openPart and checkProxies
+Result<std::vector<SourceParts>> openSources(std::span<const std::string> paths,
+                                             std::span<const tools::PartOfSource> proxies = {});
 
 } // namespace hearth::bricks

@@ -37,6 +37,12 @@ Status checkParts(const SourceParts& source, const std::vector<SurfaceMaterial>&
             return Error{Issue::meaning_reference, source.clusters.name(), "",
                          "material " + std::to_string(cluster.material) + " of a cluster is not in " +
                              source.scene.name()};
+    if (!source.proxies)
+        return success();
+    for (const ProxyRecord& proxy : source.proxies->proxies())
+        if (proxy.mesh >= source.clusters.meshes().size())
+            return Error{Issue::meaning_reference, source.proxies->name(), "",
+                         "mesh " + std::to_string(proxy.mesh) + " is not in " + source.clusters.name()};
     return success();
 }
 
@@ -89,6 +95,13 @@ void forEachCutCluster(const PackView& part, const MeshRecord& mesh, float error
         if (clusterError(cluster, part.groups()) <= error && part.groups()[cluster.group].error > error)
             visit(c, cluster);
     }
+}
+
+/// True if a proxy is made of convex parts, which contain much that is outside of its mesh.
+bool hasConvexParts(const PackView& part, const ProxyRecord& proxy)
+{
+    return std::ranges::any_of(recordsInRange(part.proxySections(), proxy.sections),
+                               [](const ProxySectionRecord& section) { return section.is_convex != 0; });
 }
 
 } // namespace
@@ -161,6 +174,37 @@ std::vector<InstancedCluster> findCutClusters(const StaticScene& scene, float er
     }
     std::ranges::sort(placed);
     return placed;
+}
+
+std::vector<ClosedProxy> findClosedProxies(const StaticScene& scene)
+{
+    std::vector<ClosedProxy> placed;
+    for (uint32_t i = 0; i < scene.instances.size(); ++i)
+    {
+        const std::optional<PackView>& part = scene.sources[scene.instances[i].source].proxies;
+        if (!part)
+            continue;
+        const auto [first, last] =
+            std::ranges::equal_range(part->proxies(), scene.instances[i].mesh, {}, &ProxyRecord::mesh);
+        for (auto proxy = first; proxy != last; ++proxy)
+            if (proxy->is_closed != 0 && !hasConvexParts(*part, *proxy))
+                placed.push_back({i, static_cast<uint32_t>(proxy - part->proxies().begin())});
+    }
+    return placed;
+}
+
+ClosedSurface makeClosedSurface(const StaticScene& scene, const ClosedProxy& placed, const GridFrame& frame)
+{
+    const StaticInstance& instance = scene.instances[placed.instance];
+    const PackView& part = *scene.sources[instance.source].proxies;
+    const ProxyRecord& proxy = part.proxies()[placed.proxy];
+    const Affine3d voxels_from_object = voxelsFromObject(frame, instance.world_from_object);
+    ClosedSurface surface;
+    for (const Float3& position : recordsInRange(part.proxyPositions(), proxy.positions))
+        surface.positions.push_back(transformPoint(voxels_from_object, widen(position)));
+    const auto indices = recordsInRange(part.proxyIndices(), proxy.indices);
+    surface.indices.assign(indices.begin(), indices.end());
+    return surface;
 }
 
 VoxelBox computeVoxelBox(const StaticScene& scene, const InstancedCluster& placed,

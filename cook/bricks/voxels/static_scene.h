@@ -3,6 +3,7 @@
 #pragma once
 
 #include "cook/bricks/grid/grid_frame.h"
+#include "cook/bricks/voxels/interior.h"
 #include "cook/bricks/voxels/material.h"
 #include "cook/bricks/voxels/source_parts.h"
 
@@ -69,6 +70,19 @@ struct InstancedCluster
 /// Return the clusters of the LOD cut at an error, of all instances, without unlit clusters, sorted.
 /// error  metres in world space, >= 0; an upper bound for the cut of each instance
 std::vector<InstancedCluster> findCutClusters(const StaticScene& scene, float error);
+
+/// Closed proxy of an instance's mesh.
+struct ClosedProxy
+{
+    uint32_t instance; ///< of the scene
+    uint32_t proxy;    ///< of its source
+};
+
+/// Return the closed proxies of all instances.
+std::vector<ClosedProxy> findClosedProxies(const StaticScene& scene);
+
+/// Return the surface of a proxy in voxels.
+ClosedSurface makeClosedSurface(const StaticScene& scene, const ClosedProxy& placed, const GridFrame& frame);
 
 /// Bounding box of a cluster in voxels, in floating point, extended by the rounding to the grid.
 struct VoxelBox

@@ -1,5 +1,5 @@
-// hearth_measure_proxies: makes the proxies of models and checks what their parts state: manifolds by counting,
-// distances by CGAL, bindings by their places. `./dev bench proxies` runs it.
+// hearth_measure_proxies: makes the proxies of models and checks what their parts state: manifolds by
+// counting, distances by CGAL, bindings by their places. `./dev bench proxies` runs it.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/command_line/command_line.h"
 #include "cook/tools/child_processes.h"

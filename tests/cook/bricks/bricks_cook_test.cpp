@@ -64,11 +64,14 @@ protected:
     /// Import and cluster a source; return the paths of its three parts.
     std::vector<std::string> parts(const std::string& name, const Document& document)
     {
-        const std::string source = folder / (name + ".glb");
-        EXPECT_TRUE(writeFile(source, encodeGlb(document)).ok());
+        EXPECT_TRUE(writeFile(folder / (name + ".glb"), encodeGlb(document)).ok());
+        return partsFromFile(name, name + ".glb");
+    }
+    std::vector<std::string> partsFromFile(const std::string& name, const std::string& source)
+    {
         const std::string import = name + ".import", clusters = name + ".clusters",
                           textures = name + ".textures";
-        EXPECT_EQ(folder.run({bin("hearth-import"), name + ".glb", "-o", import}).exit_code, 0);
+        EXPECT_EQ(folder.run({bin("hearth-import"), source, "-o", import}).exit_code, 0);
         EXPECT_EQ(folder.run({bin("hearth-clusters"), import, "-o", clusters}).exit_code, 0);
         EXPECT_EQ(folder.run({bin("hearth-textures"), import, "-o", textures}).exit_code, 0);
         return {import, clusters, textures};
@@ -290,6 +293,45 @@ TEST_F(BricksCook, areMadeWhereTheyAreNeeded)
         << open.meta();
 }
 
+/// A room of 4 m whose walls face in, with a hole of 1 m. Cleaning fills it, and the proxy keeps the sun out.
+TEST_F(BricksCook, letsNoLightThroughGapsThatProxiesClose)
+{
+    std::string obj;
+    const auto addCorner = [&](double x, double y, double z)
+    { obj += "v " + std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + "\n"; };
+    for (int corner = 0; corner < 8; ++corner)
+        addCorner(corner & 1 ? 2 : -2, corner & 2 ? 2 : -2, corner & 4 ? 2 : -2);
+    for (const auto& [y, z] : {std::pair{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}})
+        addCorner(2, y, z);
+    obj += "f 1 3 7 5\nf 1 5 6 2\nf 3 4 8 7\nf 1 2 4 3\nf 5 7 8 6\n"
+           "f 2 6 12 9\nf 4 2 9 10\nf 8 4 10 11\nf 6 8 11 12\n"; // around the hole
+    folder.write("leaky.obj", obj);
+    const std::vector<std::string> source = partsFromFile("leaky", "leaky.obj");
+    ASSERT_EQ(folder.run({bin("hearth-proxy"), source[0], source[1], "-o", "leaky.proxy", "--holes", "1"})
+                  .exit_code,
+              0);
+    const auto lightOfFloor = [&](const std::vector<std::string>& options)
+    {
+        EXPECT_EQ(
+            bricks(joined(joined(source, {"-o", "a.part", "--voxel-size", "0.25", "--min", "-4,-4,-4",
+                                          "--max", "4,4,4", "--seed", "0,0,0", "--stats", "stats.json"}),
+                          options))
+                .exit_code,
+            0);
+        const Voxels voxels = read("a.part");
+        float light = 0;
+        for (uint32_t x = 8; x < 24; ++x)
+            for (uint32_t z = 8; z < 24; ++z)
+                light = std::max(light, voxels.voxels.at({x, 7, z}).faces.at(kUp).lighting.y);
+        return light;
+    };
+    EXPECT_GT(lightOfFloor({}), 0.02f);
+    EXPECT_EQ(statistics()["leaks"]["voxels"], 0);
+    EXPECT_EQ(lightOfFloor({"--proxies", "0=leaky.proxy"}), 0);
+    EXPECT_EQ(statistics()["leaks"]["surfaces"], 1);
+    EXPECT_GT(statistics()["leaks"]["voxels"].get<int>(), 15);
+}
+
 TEST_F(BricksCook, leavesHolesInGrass)
 {
     const auto arguments = parts("grass", {.triangles = 20000, .texture_size = 64});
@@ -427,6 +469,10 @@ TEST_F(BricksCook, refusesWhatMakesNoSenseAndWritesNothing)
     refuse({"--memory", "100"}, 2);
     refuse({"--error", "-1"}, 2);
     refuse({"one-more.part"}, 2);
+    refuse({"--proxies", "a.proxy"}, 2);
+    refuse({"--proxies", "1=a.proxy"}, 2);
+    refuse({"--proxies", "0="}, 2);
+    refuse({"--proxies", "0=missing.proxy"}, 66);
     EXPECT_EQ(bricks({room()[0], room()[1], "missing.part", "-o", "a.part"}).exit_code, 66);
     folder.write("bad.part", "no container");
     EXPECT_EQ(bricks({room()[0], "bad.part", room()[2], "-o", "a.part"}).exit_code, 65);

@@ -14,8 +14,8 @@ namespace
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
-/// Triangles that share nothing, since CGAL's mesh holds manifolds only: the distance needs no edges. CGAL has
-/// no nearest point on triangles whose corners lie on a line.
+/// Triangles that share nothing, since CGAL's mesh holds manifolds only: the distance needs no edges. CGAL
+/// has no nearest point on triangles whose corners lie on a line.
 Mesh makeMesh(const TriangleSurface& surface)
 {
     Mesh mesh;
