@@ -52,8 +52,8 @@ struct Cooker
     /// Cookers whose parts it reads, in the order of its command line. A cooker of the pack reads the parts
     /// of each source. A part that is not made, because its cooker is off, is left out.
     std::vector<std::string_view> reads{};
-    /// For a cooker of the pack: cookers of sources that need not run, whose parts it reads, too, each after the
-    /// link option of that cooker with the source's number before it, "--proxies 0="
+    /// For a cooker of the pack: cookers of sources that need not run, whose parts it reads, too, each after
+    /// the link option of that cooker with the source's number before it, "--proxies 0="
     std::vector<std::string_view> reads_of_some{};
     /// True if it reads these; null: always
     bool (*needsSome)(const settings::Values& values_of_pack) = nullptr;
