@@ -19,9 +19,6 @@ namespace
 using formats::ImageRecord;
 using formats::TexelFormat;
 
-// Divides vectors by their length.
-#define NORMALIZE " --dup --powc 2 --ch R,G,B --chsum --powc 0.5 --ch 0,0,0,0 --div"
-
 /// A kind of texels, and what oiiotool does before and after it averages them.
 struct Kind
 {
@@ -44,10 +41,17 @@ constexpr Kind kKinds[] = {
     {"data", TexelFormat::rgba8_unorm, 0, "min=0:max=1", " -d uint8 -o source.png", "", "", 0.5 / 255 + 3e-4},
     {"fine data", TexelFormat::rgba16_unorm, 0, "min=0:max=1", " -d uint16 -o source.png", "", "", 3e-4},
     {"normals", TexelFormat::rgba8_unorm, formats::kImageNormalMap, "min=0.51:max=1",
-     " -d uint8 -o source.png", " --mulc 2 --subc 1" NORMALIZE, NORMALIZE " --mulc 0.5 --addc 0.5",
-     1.0 / 255},
+     " -d uint8 -o source.png", " --mulc 2 --subc 1", " --mulc 0.5 --addc 0.5", 1.0 / 255},
     {"light", TexelFormat::rgba16_float, 0, "min=1:max=100", " -d half -o source.exr", "", "", 0.07},
 };
+
+/// Return words that divide vectors by their length, for kinds that hold such.
+std::string normalize(const Kind& kind)
+{
+    return kind.flags == formats::kImageNormalMap
+               ? " --dup --powc 2 --ch R,G,B --chsum --powc 0.5 --ch 0,0,0,0 --div"
+               : "";
+}
 
 /// Return oiiotool's word for a size.
 std::string sizeWord(uint32_t width, uint32_t height)
@@ -83,8 +87,8 @@ std::string writeMips(const ImageRecord& image, const Kind& kind)
         const formats::MipExtent from = formats::mipExtent(image, mip - 1),
                                  to = formats::mipExtent(image, mip);
         words += " --resample:interp=0 " + sizeWord(from.width * to.width, from.height * to.height) +
-                 " --resize:filter=box " + sizeWord(to.width, to.height) + " --dup" + kind.after +
-                 " -d half -o mip" + std::to_string(mip) + ".exr --pop";
+                 " --resize:filter=box " + sizeWord(to.width, to.height) + " --dup" + normalize(kind) +
+                 kind.after + " -d half -o mip" + std::to_string(mip) + ".exr --pop";
     }
     return words;
 }
@@ -106,8 +110,8 @@ void expectMips(const Kind& kind, uint32_t width, uint32_t height)
     image.format = static_cast<uint32_t>(kind.format);
     image.flags = kind.flags;
     const std::vector<float> mips = makeMips(image, *source);
-    end = runTool(folder,
-                  "oiiotool --no-autopremult -i:type=float " + name + kind.before + writeMips(image, kind));
+    end = runTool(folder, "oiiotool --no-autopremult -i:type=float " + name + kind.before + normalize(kind) +
+                              writeMips(image, kind));
     ASSERT_EQ(end.exit_code, 0) << end.err << end.out;
     for (uint32_t mip = 1; mip < image.mip_count; ++mip)
     {
