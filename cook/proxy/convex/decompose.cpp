@@ -4,10 +4,7 @@
 #include "cook/mesh/interior_edges.h"
 #include "cook/proxy/convex/lattice.h"
 #include "cook/proxy/convex/piece.h"
-#include "cook/proxy/surface/half_edges.h"
 #include "formats/base/assert.h"
-#include "formats/base/disjoint_sets.h"
-#include "formats/base/index.h"
 
 #include <algorithm>
 #include <cmath>
@@ -125,21 +122,17 @@ private:
     /// Return a piece for each shell; one for all of them if they are many more than parts.
     std::vector<Piece> makeShells() const
     {
-        const std::vector<uint32_t> joined = joinHalfEdges(surface_);
-        DisjointSets shells(surface_.triangleCount());
-        for (uint32_t h = 0; h < joined.size(); ++h)
-            if (joined[h] != kInvalidIndex)
-                shells.unite(h / 3, joined[h] / 3);
+        const std::vector<uint32_t>& shells = solid_.shells().of_triangle;
         std::map<uint32_t, Piece> pieces; // by the first triangle
         for (uint32_t t = 0; t < surface_.triangleCount(); ++t)
         {
             std::array<Double3, 3> polygon;
             std::ranges::transform(surface_.corners(t), polygon.begin(),
                                    [&](Float3 corner) { return lattice_.fromPosition(corner); });
-            pieces[shells.find(t)].addPolygon(polygon, surface_.materials[t]);
+            pieces[shells[t]].addPolygon(polygon, surface_.materials[t]);
         }
         for (const auto& [triangle, edge] : findFolds())
-            pieces[shells.find(triangle)].edges.push_back(edge);
+            pieces[shells[triangle]].edges.push_back(edge);
         std::vector<Piece> list;
         for (auto& [first, piece] : pieces)
             list.push_back(std::move(piece));
@@ -165,7 +158,7 @@ private:
     /// triangles.
     std::vector<std::pair<uint32_t, FoldedEdge>> findFolds() const
     {
-        const std::vector<bool> is_closed = findClosedTriangles(surface_);
+        const std::vector<bool>& is_closed = solid_.shells().is_closed;
         const auto place = [&](uint32_t vertex) { return lattice_.fromPosition(surface_.positions[vertex]); };
         const auto findPlane = [&](uint32_t triangle) -> Plane
         {

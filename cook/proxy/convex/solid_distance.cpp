@@ -16,9 +16,8 @@ namespace hearth::proxy
 namespace
 {
 
-std::vector<Float3> collectClosedCorners(const Surface& surface)
+std::vector<Float3> collectClosedCorners(const Surface& surface, const std::vector<bool>& is_closed)
 {
-    const std::vector<bool> is_closed = findClosedTriangles(surface);
     std::vector<Float3> corners;
     for (size_t t = 0; t < surface.triangleCount(); ++t)
         if (is_closed[t])
@@ -42,26 +41,30 @@ struct PartOfTriangle
 
 } // namespace
 
-std::vector<bool> findClosedTriangles(const Surface& surface)
+Shells findShells(const Surface& surface)
 {
     const std::vector<uint32_t> joined = joinHalfEdges(surface);
-    DisjointSets shells(surface.triangleCount());
+    DisjointSets sets(surface.triangleCount());
     for (uint32_t h = 0; h < joined.size(); ++h)
         if (joined[h] != kInvalidIndex)
-            shells.unite(h / 3, joined[h] / 3);
-    std::vector<bool> is_closed(surface.triangleCount(), true);
+            sets.unite(h / 3, joined[h] / 3);
+    Shells shells{{}, std::vector<bool>(surface.triangleCount(), true)};
     for (uint32_t h = 0; h < joined.size(); ++h)
         if (joined[h] == kInvalidIndex)
-            is_closed[shells.find(h / 3)] = false;
+            shells.is_closed[sets.find(h / 3)] = false;
     for (uint32_t t = 0; t < surface.triangleCount(); ++t)
-        is_closed[t] = is_closed[shells.find(t)];
-    return is_closed;
+    {
+        shells.of_triangle.push_back(sets.find(t));
+        shells.is_closed[t] = shells.is_closed[sets.find(t)];
+    }
+    return shells;
 }
 
 Solid::Solid(const Surface& surface)
     : surface_(surface),
+      shells_(findShells(surface)),
       closest_(surface.view(), surface.triangleCount()),
-      closed_shells_(collectClosedCorners(surface))
+      closed_shells_(collectClosedCorners(surface, shells_.is_closed))
 {
 }
 

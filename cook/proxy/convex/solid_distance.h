@@ -13,8 +13,14 @@
 namespace hearth::proxy
 {
 
-/// Return for each triangle whether its shell, the triangles that edges connect, is closed.
-std::vector<bool> findClosedTriangles(const Surface& surface);
+/// Shells of a surface: triangles that edges connect.
+struct Shells
+{
+    std::vector<uint32_t> of_triangle; ///< the first triangle of its shell
+    std::vector<bool> is_closed;       ///< [triangles], of its shell
+};
+
+Shells findShells(const Surface& surface);
 
 /// A surface, and the inside of its closed shells. Build once, then use from many threads.
 class Solid
@@ -24,6 +30,7 @@ public:
     explicit Solid(const Surface& surface);
 
     const Surface& surface() const { return surface_; }
+    const Shells& shells() const { return shells_; }
 
     /// Return an upper bound of the distance from the solid, in metres, over all points of the triangles: at
     /// most 1.1 times the greatest distance, or `enough` above it.
@@ -40,6 +47,7 @@ private:
     bool isInside(Float3 point) const;
 
     const Surface& surface_;
+    Shells shells_;
     mesh::ClosestPoint closest_;
     ray_scene::TriangleRays closed_shells_;
 };

@@ -330,6 +330,14 @@ TEST_F(BricksCook, letsNoLightThroughGapsThatProxiesClose)
     EXPECT_EQ(lightOfFloor({"--proxies", "0=leaky.proxy"}), 0);
     EXPECT_EQ(statistics()["leaks"]["surfaces"], 1);
     EXPECT_GT(statistics()["leaks"]["voxels"].get<int>(), 15);
+    // convex parts contain what is outside of the mesh, too
+    ASSERT_EQ(folder
+                  .run({bin("hearth-proxy"), source[0], source[1], "-o", "convex.proxy", "--holes", "1",
+                        "--convex-parts", "4"})
+                  .exit_code,
+              0);
+    EXPECT_GT(lightOfFloor({"--proxies", "0=convex.proxy"}), 0.02f);
+    EXPECT_EQ(statistics()["leaks"]["surfaces"], 0);
 }
 
 TEST_F(BricksCook, leavesHolesInGrass)
