@@ -4,6 +4,7 @@
 
 #include "formats/base/math.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -18,5 +19,17 @@ struct MeshView
 
     size_t triangleCount() const { return indices.size() / 3; }
 };
+
+inline double longestEdge(const MeshView& mesh, size_t triangle)
+{
+    double longest = 0;
+    for (size_t k = 0; k < 3; ++k)
+    {
+        const Float3 a = mesh.positions[mesh.indices[triangle * 3 + k]];
+        const Float3 b = mesh.positions[mesh.indices[triangle * 3 + (k + 1) % 3]];
+        longest = std::max(longest, double{length(b - a)});
+    }
+    return longest;
+}
 
 } // namespace hearth::mesh

@@ -52,11 +52,11 @@ struct Cooker
     /// Cookers whose parts it reads, in the order of its command line. A cooker of the pack reads the parts
     /// of each source. A part that is not made, because its cooker is off, is left out.
     std::vector<std::string_view> reads{};
-    /// For a cooker of the pack: cookers of sources that need not run, whose parts it reads, too, each after
-    /// the link option of that cooker with the source's number before it, "--proxies 0="
+    /// Cookers of sources that need not run, whose parts it reads, too, each after the link option of that
+    /// cooker, "--proxies"; a cooker of the pack gets them with the source's number, "0="
     std::vector<std::string_view> reads_of_some{};
-    /// True if it reads these; null: always
-    bool (*needsSome)(const settings::Values& values_of_pack) = nullptr;
+    /// True if it reads these, by the settings of its scope; null: always
+    bool (*needsSome)(const settings::Values& values) = nullptr;
     /// For a cooker of the pack: earlier ones of the pack whose parts it reads where they run, each after an
     /// option of that name, "--probe"
     std::vector<std::string_view> reads_of_pack{};

@@ -15,6 +15,8 @@ using namespace settings;
 
 constexpr std::string_view kOccluders = "visibility.occluders";
 constexpr std::string_view kPackOccludes = "pack";
+constexpr std::string_view kProxies = "visibility.proxies";
+constexpr std::string_view kNoProxies = "none";
 
 std::vector<Setting> makeVisibilitySettings()
 {
@@ -33,6 +35,13 @@ std::vector<Setting> makeVisibilitySettings()
                                      "scene; mesh, each mesh alone",
                                      kPackOccludes, {kPackOccludes, "source", "mesh"}),
                        "--visibility-occluders", "NAME")),
+        withSaving("all takes the rays of simple meshes",
+                   withOption(choiceSetting(std::string(kProxies),
+                                            "use of proxies that are near their meshes (proxy.from): fit, "
+                                            "visibility is fitted on them, and meshes take it from there; "
+                                            "all, rays start on them and meet them, too",
+                                            kNoProxies, {kNoProxies, "fit", "all"}),
+                              "--visibility-proxies", "NAME")),
         withSaving(
             "0 copies no mesh",
             withOption(numberSetting("visibility.copies",
@@ -73,6 +82,7 @@ Result<Arguments> makeVisibilityArguments(const Values& values)
     arguments.depends_on_processor = true;
     addOption(values, "visibility.quality", "--quality", arguments);
     addOption(values, kOccluders, "--occluders", arguments);
+    addOption(values, kProxies, "--use-proxies", arguments);
     addOption(values, "visibility.copies", "--copies", arguments);
     addOption(values, "visibility.distance", "--distance", arguments);
     addOption(values, "visibility.power", "--power", arguments);
@@ -81,6 +91,11 @@ Result<Arguments> makeVisibilityArguments(const Values& values)
     // the estimate of noise would take a third as long as the work itself
     arguments.words.emplace_back("--no-noise-estimate");
     return arguments;
+}
+
+bool usesProxies(const Values& values)
+{
+    return choiceOr(values, kProxies, kNoProxies) != kNoProxies;
 }
 
 bool isOccludedByPack(const Values& values)
@@ -95,6 +110,8 @@ Cooker describeVisibility()
     return {.name = "visibility",
             .switched_by = "visibility.mode",
             .reads = {"import", "clusters"},
+            .reads_of_some = {"proxy"},
+            .needsSome = usesProxies,
             .listed_by = "neighbours",
             .needsList = isOccludedByPack,
             .replaces = "clusters",

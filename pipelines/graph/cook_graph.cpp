@@ -151,6 +151,20 @@ bool isListed(const Cooker& cooker, const Values& values, const Draft& draft)
            (cooker.needsList == nullptr || cooker.needsList(values));
 }
 
+/// Add the parts that a cooker of sources reads where they are made.
+void addReadsOfSome(const Cooker& cooker, const Values& values, const ActionIndices& actions,
+                    const Draft& draft, Action& action)
+{
+    if (cooker.needsSome != nullptr && !cooker.needsSome(values))
+        return;
+    for (const std::string_view read : cooker.reads_of_some)
+        if (const auto found = actions.find(read); found != actions.end())
+        {
+            addWord(action, cookers::findCooker(read)->link_option);
+            addInput(action, partInput(draft.graph, found->second));
+        }
+}
+
 /// Add the actions of one source, in two steps: first those that read its own files and parts only, then
 /// those that another action lists more for. errors: those of addSourceFiles and finishAction
 Status addSource(size_t source, bool is_listed, Draft& draft)
@@ -169,6 +183,7 @@ Status addSource(size_t source, bool is_listed, Draft& draft)
         for (const std::string_view read : cooker.reads)
             if (const auto found = actions.find(read); found != actions.end())
                 addInput(action, partInput(draft.graph, found->second));
+        addReadsOfSome(cooker, values, actions, draft, action);
         if (cooker.makeWordsOfPack != nullptr)
             for (const std::string& word : cooker.makeWordsOfPack(draft.settings.values_of_pack))
                 addWord(action, word);
@@ -185,8 +200,8 @@ void addPartOfSome(const Draft& draft, size_t source, size_t part_action, Action
     addInput(action, sourcePartInput(draft.graph, part_action), fmt::format("{}=", source));
 }
 
-/// Add the parts that a cooker of the pack reads of some sources.
-void addReadsOfSome(const Cooker& cooker, const Draft& draft, Action& action)
+/// Add the parts that a cooker of the pack reads of the sources that have them.
+void addReadsOfSomeSources(const Cooker& cooker, const Draft& draft, Action& action)
 {
     if (cooker.needsSome != nullptr && !cooker.needsSome(draft.settings.values_of_pack))
         return;
@@ -214,7 +229,7 @@ Status addCookerOfPack(const Cooker& cooker, Draft& draft)
             addInput(action, cooker.reads_statistics ? sourceStatisticsInput(draft.graph, actions.at(read))
                                                      : sourcePartInput(draft.graph, actions.at(read)));
         }
-    addReadsOfSome(cooker, draft, action);
+    addReadsOfSomeSources(cooker, draft, action);
     for (const std::string_view read : cooker.reads_of_pack)
         if (const auto found = draft.actions_of_pack.find(read); found != draft.actions_of_pack.end())
         {

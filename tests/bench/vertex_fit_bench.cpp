@@ -42,22 +42,22 @@ const Scene& scene()
 using OneCore = tbb::global_control;
 constexpr auto kParallelism = tbb::global_control::max_allowed_parallelism;
 
-void proxy(benchmark::State& state)
+void fitMesh(benchmark::State& state)
 {
     const OneCore one(kParallelism, 1);
     for (auto _ : state)
-        benchmark::DoNotOptimize(makeProxy(test::makeMeshView(scene().rock)));
+        benchmark::DoNotOptimize(makeFitMesh(test::makeMeshView(scene().rock)));
 }
-BENCHMARK(proxy)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(fitMesh)->Unit(benchmark::kMillisecond)->UseRealTime();
 
 void assembly(benchmark::State& state)
 {
     const OneCore one(kParallelism, 1);
-    const Proxy proxy = makeProxy(test::makeMeshView(scene().rock));
+    const FitMesh fit_mesh = makeFitMesh(test::makeMeshView(scene().rock));
     const std::vector<SurfaceSample> samples =
-        mapSamplesToProxy(proxy, test::makeMeshView(scene().rock), scene().samples);
+        mapSamplesToFitMesh(fit_mesh, test::makeMeshView(scene().rock), scene().samples);
     for (auto _ : state)
-        benchmark::DoNotOptimize(assemble(proxy, samples, scene().values, {}));
+        benchmark::DoNotOptimize(assemble(fit_mesh, samples, scene().values, {}));
 }
 BENCHMARK(assembly)->Unit(benchmark::kMillisecond)->UseRealTime();
 
@@ -65,18 +65,18 @@ BENCHMARK(assembly)->Unit(benchmark::kMillisecond)->UseRealTime();
 void solution(benchmark::State& state)
 {
     const OneCore one(kParallelism, 1);
-    const Proxy proxy = makeProxy(test::makeMeshView(scene().rock));
+    const FitMesh fit_mesh = makeFitMesh(test::makeMeshView(scene().rock));
     const std::vector<SurfaceSample> samples =
-        mapSamplesToProxy(proxy, test::makeMeshView(scene().rock), scene().samples);
-    const NormalEquations system = assemble(proxy, samples, scene().values, {});
+        mapSamplesToFitMesh(fit_mesh, test::makeMeshView(scene().rock), scene().samples);
+    const NormalEquations system = assemble(fit_mesh, samples, scene().values, {});
     SolveStatistics statistics;
     for (auto _ : state)
     {
-        std::vector<Block4> x(proxy.positions.size());
+        std::vector<Block4> x(fit_mesh.positions.size());
         statistics = solve(system.matrix, system.right, x, 1e-8, 500);
         benchmark::DoNotOptimize(x);
     }
-    state.counters["vertices"] = static_cast<double>(proxy.positions.size());
+    state.counters["vertices"] = static_cast<double>(fit_mesh.positions.size());
     state.counters["iterations"] = statistics.iterations;
     state.counters["condition"] = statistics.condition;
 }

@@ -2,6 +2,7 @@
 // mesh.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/mesh/deformation.h"
+#include "cook/mesh/edge_split.h"
 #include "cook/mesh/grid.h"
 #include "cook/mesh/triangles.h"
 #include "cook/mesh/weld.h"
@@ -88,6 +89,38 @@ TEST(OpenEdges, areTheBorderWithItsDirection)
     EXPECT_THAT(mesh::openEdges(closed), IsEmpty());
     const std::vector<uint32_t> wrong_way{0, 1, 2, 1, 2, 3};
     EXPECT_THAT(mesh::openEdges(wrong_way), testing::Contains(OpenEdge{1, 2, 2}));
+}
+
+TEST(SplitLongEdges, keepsTheSurfaceAndItsClosure)
+{
+    // a tetrahedron with edges of many lengths
+    const std::vector<Float3> corners{{0, 0, 0}, {8, 0, 0}, {0, 0.5f, 0}, {1, 0.25f, 3}};
+    const std::vector<uint32_t> tetrahedron{0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
+    const auto normal = [](std::span<const Float3> positions, const uint32_t* triangle)
+    {
+        const Float3 a = positions[triangle[0]];
+        return cross(positions[triangle[1]] - a, positions[triangle[2]] - a);
+    };
+    for (const float longest : {9.0f, 3.0f, 1.0f, 0.3f})
+    {
+        const mesh::SplitSurface split = mesh::splitLongEdges(corners, tetrahedron, longest);
+        EXPECT_THAT(mesh::openEdges(split.indices), IsEmpty());
+        std::vector<Float3> sums(4);
+        for (size_t t = 0; t < split.source_triangle.size(); ++t)
+        {
+            const uint32_t* triangle = &split.indices[t * 3];
+            for (size_t k = 0; k < 3; ++k)
+                EXPECT_LE(length(split.positions[triangle[k]] - split.positions[triangle[(k + 1) % 3]]),
+                          longest);
+            const uint32_t source = split.source_triangle[t];
+            const Float3 of_source = normal(corners, &tetrahedron[size_t{source} * 3]);
+            EXPECT_GT(dot(normal(split.positions, triangle), of_source), 0);
+            sums[source] += normal(split.positions, triangle);
+        }
+        for (size_t t = 0; t < 4; ++t)
+            EXPECT_LT(length(sums[t] - normal(corners, &tetrahedron[t * 3])), 1e-3f) << longest;
+        EXPECT_EQ(split.source_triangle.size() == 4, longest == 9);
+    }
 }
 
 TEST(Grid, movesPositionsToMultiplesOfAPowerOfTwo)

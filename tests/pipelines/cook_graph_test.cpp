@@ -317,6 +317,29 @@ TEST(CookGraph, givesBricksTheProxiesOfSourcesUnlessLightMayLeakIn)
     EXPECT_TRUE(hasBricks({}));
 }
 
+TEST(CookGraph, givesVisibilityTheProxiesThatItUses)
+{
+    CookSettings settings;
+    settings.sources = {"a.obj"};
+    settings.output = "a.hearth";
+    settings.values_of_source = {{{"proxy.from", {"\"clean\"", ""}}}};
+    const auto readsProxies = [&]
+    {
+        for (const Words& words : getCommands(makeCookGraph(settings).value()))
+            if (words[0] == "bin/hearth-visibility")
+                return std::ranges::search(words, Words{"--proxies", "{proxy.part}"}).begin() != words.end();
+        return false;
+    };
+    settings::Values& values = settings.values_of_source[0];
+    EXPECT_FALSE(readsProxies());
+    values["visibility.proxies"] = {"\"fit\"", ""};
+    EXPECT_TRUE(readsProxies());
+    values["visibility.proxies"] = {"\"all\"", ""};
+    EXPECT_TRUE(readsProxies());
+    values["proxy.from"] = {"\"authored\"", ""};
+    EXPECT_FALSE(readsProxies()) << "those of artists are in the import part";
+}
+
 TEST(CookGraph, linksPlainTexturesWhereNoFamilyIsWanted)
 {
     CookSettings settings = allSettings();

@@ -1,6 +1,7 @@
 // Compares baked occlusion with closed forms, from a source through `hearth cook` and the pack: every shape
 // at the default quality and at high, shapes of planes also rotated at random.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/json/json.h"
 #include "tests/reference/polygon_visibility.h"
 #include "tests/roundtrip/occlusion_bake.h"
 
@@ -25,7 +26,8 @@ using reference::Polygon;
 constexpr double kPi = std::numbers::pi;
 
 /// Limits of the root mean square error of ambient occlusion, as in cook/visibility/README.md.
-constexpr double kMaxError = 0.006, kMaxErrorAtHigh = 0.002, kMaxErrorOfPlanesAtHigh = 0.0016;
+constexpr double kMaxError = 0.006, kMaxErrorAtHigh = 0.002, kMaxErrorOfPlanesAtHigh = 0.0016,
+                 kMaxErrorOnAFifth = 0.006;
 /// Limits at high quality: of |m1| over pi, rms; of |m1| over m0, which gives the cone's aperture, rms; and
 /// of the axis's mean angle, degrees.
 constexpr double kMaxM1Error = 0.002, kMaxRatioError = 0.004, kMaxAxisError = 1;
@@ -431,12 +433,46 @@ void expectClosedForm(const KnownShape& known)
     }
 }
 
+struct ProxyBake
+{
+    Errors errors;
+    double fitted_vertices = 0;
+};
+
+/// Bake at high quality, with the proxy of the shape.
+/// use          of --visibility-proxies
+/// proxy_flags  that say which proxy it has
+ProxyBake bakeOnProxy(const KnownShape& known, const std::string& use,
+                      const std::vector<std::string>& proxy_flags)
+{
+    std::vector<std::string> flags = known.flags;
+    flags.insert(flags.end(), kAtHigh.begin(), kAtHigh.end());
+    flags.insert(flags.end(), proxy_flags.begin(), proxy_flags.end());
+    flags.insert(flags.end(),
+                 {"--proxy-from", "clean", "--visibility-proxies", use, "--report", "report.json"});
+    Sandbox sandbox;
+    const Errors errors = measure(bakeShape(sandbox, known.shape, flags), known);
+    const auto report = Json::parse(sandbox.read("report.json")).value();
+    const auto& mesh = report["assets"][0]["visibility"]["meshes"][0];
+    EXPECT_EQ(mesh["proxy"], use);
+    const ProxyBake baked{errors, mesh["vertices"].get<double>()};
+    std::printf("%-24s %-4s %-17s %5.0f of %5zu vertices: ao %.4f, its mean %.4f, m1 %.4f, m1/m0 %.4f, axis "
+                "%.2f\n",
+                known.name.c_str(), use.c_str(), proxy_flags.front().c_str(), baked.fitted_vertices,
+                known.shape.positions.size(), errors.ao, errors.bias, errors.m1, errors.ratio, errors.axis);
+    return baked;
+}
+
 std::string getName(const testing::TestParamInfo<KnownShape>& info)
 {
     return info.param.name;
 }
 
 class OcclusionForms : public testing::TestWithParam<KnownShape>
+{
+};
+
+class OcclusionOnProxies : public testing::TestWithParam<KnownShape>
 {
 };
 
@@ -459,6 +495,32 @@ TEST_P(OcclusionForms, areHeld)
     expectClosedForm(GetParam());
 }
 INSTANTIATE_TEST_SUITE_P(All, OcclusionForms, testing::ValuesIn(knownShapes()), getName);
+
+// At high quality, on a proxy that is the whole mesh, cleaned.
+TEST_P(OcclusionOnProxies, isThatOfTheMeshWhereTheProxyIsTheMesh)
+{
+    const ProxyBake baked = bakeOnProxy(GetParam(), "fit", {"--proxy-error", "0"});
+    EXPECT_GT(baked.errors.count, 100u);
+    EXPECT_LT(baked.errors.ao, GetParam().max_bias > 0 ? kMaxErrorOfPlanesAtHigh : kMaxErrorAtHigh);
+}
+
+// The same on a proxy with a fifth of the vertices, which also occludes.
+TEST_P(OcclusionOnProxies, isNearlyThatOfTheMeshOnAFifthOfItsVertices)
+{
+    const std::string triangles = std::to_string(GetParam().shape.triangles.size() / 6);
+    for (const std::string use : {"fit", "all"})
+    {
+        const ProxyBake baked = bakeOnProxy(GetParam(), use, {"--proxy-triangles", triangles});
+        EXPECT_LT(baked.fitted_vertices, 0.2 * static_cast<double>(GetParam().shape.positions.size()));
+        EXPECT_GT(baked.errors.count, 100u);
+        EXPECT_LT(baked.errors.ao, kMaxErrorOnAFifth) << use;
+    }
+}
+INSTANTIATE_TEST_SUITE_P(All, OcclusionOnProxies,
+                         testing::Values(pit(2), sphere(), ceiling(1), coarseBowl(),
+                                         groove(60).rotated({}, ""),
+                                         funnel().rotated(randomRotation(1), "Rotated")),
+                         getName);
 
 TEST(OcclusionOfPlanes, isNoneWhereNothingIsInTheWay)
 {

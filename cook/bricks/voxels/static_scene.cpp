@@ -2,6 +2,7 @@
 #include "cook/bricks/voxels/static_scene.h"
 
 #include "formats/pack/pack_check.h"
+#include "formats/pack/proxy_sections.h"
 #include "formats/scene/lit_material.h"
 
 #include <algorithm>
@@ -95,13 +96,6 @@ void forEachCutCluster(const PackView& part, const MeshRecord& mesh, float error
         if (clusterError(cluster, part.groups()) <= error && part.groups()[cluster.group].error > error)
             visit(c, cluster);
     }
-}
-
-/// True if a proxy is made of convex parts, which contain much that is outside of its mesh.
-bool hasConvexParts(const PackView& part, const ProxyRecord& proxy)
-{
-    return std::ranges::any_of(recordsInRange(part.proxySections(), proxy.sections),
-                               [](const ProxySectionRecord& section) { return section.is_convex != 0; });
 }
 
 } // namespace

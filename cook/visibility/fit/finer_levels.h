@@ -19,7 +19,8 @@ Moments tiltHemisphere(const Moments& moments, Float3 from, Float3 to);
 /// same way, and then for the vertex's own normal. Vertices that the next coarser level also has keep its
 /// bits, so that mixed cuts have no jumps, and copies of a vertex have one value. The same bits for any
 /// number of threads.
-/// levels  finest first, all with `first_copy`; the last one is the fitted one
+/// levels  finest first; the last one is the fitted one, the others have `first_copy`: vertices with the same
+///         one have one value, even if their normals differ
 /// fitted  moments of its vertices; copies have one value
 /// returns moments of the vertices of all levels but the last
 std::vector<std::vector<Moments>> interpolateFinerLevels(std::span<const LevelMesh> levels,

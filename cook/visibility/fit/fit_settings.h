@@ -16,7 +16,7 @@ struct FitSettings
     /// Maximum of a jump's squared coefficient by the vertex's own area; a jump above it is scaled down.
     /// Between triangles of equal size and shape it is 1 to 2. Where a small or flat triangle meets a large
     /// one it grows with the square of their ratio, and so do iterations: scans took hundreds, with any
-    /// proxy. Infinity: the sum as published.
+    /// fit mesh. Infinity: the sum as published.
     double stiffness = 4;
     /// Membrane of triangles with few or collinear samples: they resist differences between their corners
     /// with up to this share of their area. 0.01 is a third of the resistance of samples everywhere. Without

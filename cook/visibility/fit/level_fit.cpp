@@ -21,12 +21,59 @@ constexpr size_t kSamplesPerTask = 256;
 // Default of LevelMesh::reach (stored as 0), as a share of the diagonal of the finest level's box.
 constexpr double kDefaultReach = 0.05;
 
-/// Move samples from a surface to a level's proxy.
-/// from  mesh that the samples lie on
-std::vector<SurfaceSample> moveSamples(const MeshView& from, std::span<const SurfaceSample> samples,
-                                       const Proxy& proxy, double reach)
+double computeDiagonal(const MeshView& mesh)
 {
-    const mesh::ClosestPoint surface(proxy.view(), proxy.indices.size() / 3);
+    Box3 box;
+    for (const Float3 p : mesh.positions)
+        box.add(p);
+    return box.empty() ? 0 : double{length(box.max - box.min)};
+}
+
+/// Fixed values of fit mesh vertices that keep shared vertices equal to those of the finer level.
+struct HeldValues
+{
+    std::vector<uint8_t> is_held;
+    std::vector<Moments> moments;
+};
+
+HeldValues collectHeldValues(const LevelMesh& level, const FitMesh& fit_mesh, std::span<const Moments> finer)
+{
+    HeldValues held{std::vector<uint8_t>(fit_mesh.positions.size(), 0),
+                    std::vector<Moments>(fit_mesh.positions.size())};
+    for (size_t v = 0; v < level.finer_vertex.size(); ++v)
+    {
+        const Binding& binding = fit_mesh.bindings[v];
+        const bool is_one =
+            binding.vertices[0] != kInvalidIndex && binding.vertices[0] == binding.vertices[1];
+        if (level.finer_vertex[v] == kInvalidIndex || !is_one || held.is_held[binding.vertices[0]] != 0)
+            continue;
+        held.is_held[binding.vertices[0]] = 1;
+        held.moments[binding.vertices[0]] = finer[level.finer_vertex[v]];
+    }
+    return held;
+}
+
+LevelFit fitLevel(const LevelMesh& level, const FitMesh& fit_mesh, std::span<const SurfaceSample> samples,
+                  std::span<const Moments> values, const FitSettings& settings,
+                  std::span<const Moments> finer)
+{
+    const HeldValues held = collectHeldValues(level, fit_mesh, finer);
+    FitResult fit = fitVertices(fit_mesh, samples, values, settings, {held.is_held, held.moments});
+    LevelFit result{mapValuesToSource(fit_mesh, fit.moments, level.mesh.normals), fit.statistics,
+                    fit_mesh.statistics, static_cast<uint32_t>(samples.size())};
+    // several vertices of a level may share one fit mesh vertex where the finer level had two
+    for (size_t v = 0; v < level.finer_vertex.size(); ++v)
+        if (level.finer_vertex[v] != kInvalidIndex)
+            result.moments[v] = finer[level.finer_vertex[v]];
+    return result;
+}
+
+} // namespace
+
+std::vector<SurfaceSample> moveSamples(const MeshView& from, std::span<const SurfaceSample> samples,
+                                       const MeshView& to, double reach)
+{
+    const mesh::ClosestPoint surface(to, to.triangleCount());
     std::vector<SurfaceSample> result(samples.size());
     const auto move = [&](const SurfaceSample& sample, uint32_t hint)
     {
@@ -51,55 +98,6 @@ std::vector<SurfaceSample> moveSamples(const MeshView& from, std::span<const Sur
                       });
     return result;
 }
-
-double computeDiagonal(const MeshView& mesh)
-{
-    Box3 box;
-    for (const Float3 p : mesh.positions)
-        box.add(p);
-    return box.empty() ? 0 : double{length(box.max - box.min)};
-}
-
-/// Fixed values of proxy vertices that keep shared vertices equal to those of the finer level.
-struct HeldValues
-{
-    std::vector<uint8_t> is_held;
-    std::vector<Moments> moments;
-};
-
-HeldValues collectHeldValues(const LevelMesh& level, const Proxy& proxy, std::span<const Moments> finer)
-{
-    HeldValues held{std::vector<uint8_t>(proxy.positions.size(), 0),
-                    std::vector<Moments>(proxy.positions.size())};
-    for (size_t v = 0; v < level.finer_vertex.size(); ++v)
-    {
-        const Binding& binding = proxy.bindings[v];
-        const bool is_one =
-            binding.vertices[0] != kInvalidIndex && binding.vertices[0] == binding.vertices[1];
-        if (level.finer_vertex[v] == kInvalidIndex || !is_one || held.is_held[binding.vertices[0]] != 0)
-            continue;
-        held.is_held[binding.vertices[0]] = 1;
-        held.moments[binding.vertices[0]] = finer[level.finer_vertex[v]];
-    }
-    return held;
-}
-
-LevelFit fitLevel(const LevelMesh& level, const Proxy& proxy, std::span<const SurfaceSample> samples,
-                  std::span<const Moments> values, const FitSettings& settings,
-                  std::span<const Moments> finer)
-{
-    const HeldValues held = collectHeldValues(level, proxy, finer);
-    FitResult fit = fitVertices(proxy, samples, values, settings, {held.is_held, held.moments});
-    LevelFit result{mapValuesToSource(proxy, fit.moments, level.mesh.normals), fit.statistics,
-                    proxy.statistics, static_cast<uint32_t>(samples.size())};
-    // several vertices of a level may share one proxy vertex where the finer level had two
-    for (size_t v = 0; v < level.finer_vertex.size(); ++v)
-        if (level.finer_vertex[v] != kInvalidIndex)
-            result.moments[v] = finer[level.finer_vertex[v]];
-    return result;
-}
-
-} // namespace
 
 SampledValues averageByTriangle(std::span<const SurfaceSample> samples, std::span<const Moments> values,
                                 size_t triangle_count)
@@ -144,23 +142,24 @@ std::vector<LevelFit> fitLevels(std::span<const LevelMesh> levels, std::span<con
 {
     HEARTH_ASSERT(!levels.empty() && levels[0].finer_vertex.empty() && samples.size() == values.size());
     std::vector<LevelFit> fits;
-    Proxy proxy = makeProxy(levels[0].mesh, settings.proxy);
-    SampledValues on_level{mapSamplesToProxy(proxy, levels[0].mesh, samples), {values.begin(), values.end()}};
-    fits.push_back(fitLevel(levels[0], proxy, on_level.samples, on_level.values, settings.fit, {}));
-    const auto finest_count = static_cast<double>(std::max<size_t>(1, proxy.positions.size()));
+    FitMesh fit_mesh = makeFitMesh(levels[0].mesh, settings.fit_mesh);
+    SampledValues on_level{mapSamplesToFitMesh(fit_mesh, levels[0].mesh, samples),
+                           {values.begin(), values.end()}};
+    fits.push_back(fitLevel(levels[0], fit_mesh, on_level.samples, on_level.values, settings.fit, {}));
+    const auto finest_count = static_cast<double>(std::max<size_t>(1, fit_mesh.positions.size()));
     const double default_reach = computeDiagonal(levels[0].mesh) * kDefaultReach;
     for (const LevelMesh& level : levels.subspan(1))
     {
         HEARTH_ASSERT(level.finer_vertex.empty() || level.finer_vertex.size() == level.mesh.positions.size());
-        const Proxy finer = std::move(proxy);
+        const FitMesh finer = std::move(fit_mesh);
         on_level = averageByTriangle(on_level.samples, on_level.values, finer.indices.size() / 3);
-        proxy = makeProxy(level.mesh, settings.proxy);
+        fit_mesh = makeFitMesh(level.mesh, settings.fit_mesh);
         const double reach = level.reach > 0 ? double{level.reach} : default_reach;
-        on_level.samples = moveSamples(finer.view(), on_level.samples, proxy, reach);
-        const double vertex_ratio = static_cast<double>(proxy.positions.size()) / finest_count;
+        on_level.samples = moveSamples(finer.view(), on_level.samples, fit_mesh.view(), reach);
         FitSettings fit = settings.fit;
-        fit.alpha *= std::clamp(vertex_ratio * vertex_ratio, settings.min_alpha_factor, 1.0);
-        fits.push_back(fitLevel(level, proxy, on_level.samples, on_level.values, fit, fits.back().moments));
+        fit.alpha *= settings.alphaFactor(static_cast<double>(fit_mesh.positions.size()) / finest_count);
+        fits.push_back(
+            fitLevel(level, fit_mesh, on_level.samples, on_level.values, fit, fits.back().moments));
     }
     return fits;
 }

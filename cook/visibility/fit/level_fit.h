@@ -5,6 +5,7 @@
 
 #include "cook/visibility/fit/vertex_fit.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace hearth::visibility
@@ -27,7 +28,7 @@ struct LevelMesh
 
 struct LevelFitSettings
 {
-    ProxySettings proxy;
+    FitMeshSettings fit_mesh;
     FitSettings fit;
     /// Minimum factor of alpha on a coarser level. The factor is the square of the level's number of vertices
     /// by the finest level's: the same penalty of curvature in metres on each level, so that levels approach
@@ -35,13 +36,16 @@ struct LevelFitSettings
     /// were nearer to the truth. With a smaller factor than this, noise would come through at the samples
     /// that a vertex has.
     double min_alpha_factor = 0.03;
+
+    /// Return the factor of alpha on a mesh with `ratio` times the vertices of the finest level.
+    double alphaFactor(double ratio) const { return std::clamp(ratio * ratio, min_alpha_factor, 1.0); }
 };
 
 struct LevelFit
 {
     std::vector<Moments> moments; ///< for each vertex of the level's mesh
-    FitStatistics statistics;     ///< `held` counts vertices of the proxy
-    ProxyStatistics proxy;
+    FitStatistics statistics;     ///< `held` counts vertices of the fit mesh
+    FitMeshStatistics fit_mesh;
     uint32_t samples = 0; ///< used samples; statistics.lost_samples of them lie nowhere on this level
 };
 
@@ -52,6 +56,12 @@ struct LevelFit
 /// values   one for each sample
 std::vector<LevelFit> fitLevels(std::span<const LevelMesh> levels, std::span<const SurfaceSample> samples,
                                 std::span<const Moments> values, const LevelFitSettings& settings = {});
+
+/// Move samples to the closest points of another surface that face the same way as their triangles. The triangle
+/// of a sample is kInvalidIndex if no such point is within `reach`. The same for any number of threads.
+/// from  mesh that the samples lie on
+std::vector<SurfaceSample> moveSamples(const MeshView& from, std::span<const SurfaceSample> samples,
+                                       const MeshView& to, double reach);
 
 /// Samples with their values.
 struct SampledValues

@@ -69,16 +69,16 @@ std::vector<TriangleSums> sumSamples(size_t triangle_count, std::span<const Surf
 
 /// Create the entries of the matrix: pairs of vertices of one triangle, and of vertices opposite to each
 /// other across an edge.
-SparseMatrix createPattern(const Proxy& proxy)
+SparseMatrix createPattern(const FitMesh& fit_mesh)
 {
-    const size_t rows = proxy.positions.size();
+    const size_t rows = fit_mesh.positions.size();
     // every pair twice, once for each row; pairs along an edge once for each triangle of the edge
     const auto forPairs = [&](const auto& use)
     {
-        for (size_t t = 0; t < proxy.indices.size(); t += 3)
+        for (size_t t = 0; t < fit_mesh.indices.size(); t += 3)
             for (size_t k = 0; k < 3; ++k)
-                use(proxy.indices[t + k], proxy.indices[t + (k + 1) % 3]);
-        for (const mesh::InteriorEdge& edge : proxy.edges)
+                use(fit_mesh.indices[t + k], fit_mesh.indices[t + (k + 1) % 3]);
+        for (const mesh::InteriorEdge& edge : fit_mesh.edges)
             use(edge.k, edge.l);
     };
     CsrLists<uint32_t> entries(rows,
@@ -123,11 +123,11 @@ void addSymmetric(SparseMatrix& matrix, uint32_t a, uint32_t b, double value)
     entry(matrix, b, a) += value;
 }
 
-void addMass(NormalEquations& system, const Proxy& proxy, const std::vector<TriangleSums>& sums)
+void addMass(NormalEquations& system, const FitMesh& fit_mesh, const std::vector<TriangleSums>& sums)
 {
     for (size_t t = 0; t < sums.size(); ++t)
     {
-        const uint32_t* corners = proxy.indices.data() + t * 3;
+        const uint32_t* corners = fit_mesh.indices.data() + t * 3;
         const double* mass = sums[t].mass;
         for (size_t k = 0; k < 3; ++k)
         {
@@ -151,27 +151,27 @@ double rowScale(const std::array<double, 4>& jump, const std::array<uint32_t, 4>
 }
 
 /// Compute for each vertex a third of the area of its triangles.
-std::vector<double> computeVertexAreas(const Proxy& proxy)
+std::vector<double> computeVertexAreas(const FitMesh& fit_mesh)
 {
-    std::vector<double> areas(proxy.positions.size(), 0);
-    for (size_t t = 0; t < proxy.indices.size(); t += 3)
+    std::vector<double> areas(fit_mesh.positions.size(), 0);
+    for (size_t t = 0; t < fit_mesh.indices.size(); t += 3)
     {
-        const double third = triangleArea(proxy.positions, &proxy.indices[t]) / 3;
+        const double third = triangleArea(fit_mesh.positions, &fit_mesh.indices[t]) / 3;
         for (size_t k = 0; k < 3; ++k)
-            areas[proxy.indices[t + k]] += third;
+            areas[fit_mesh.indices[t + k]] += third;
     }
     return areas;
 }
 
 /// Compute the share of the area around each vertex that counts.
-std::vector<double> computeVertexShares(const Proxy& proxy, const std::vector<TriangleSums>& sums)
+std::vector<double> computeVertexShares(const FitMesh& fit_mesh, const std::vector<TriangleSums>& sums)
 {
-    std::vector<double> area(proxy.positions.size(), 0), whole(area.size(), 0);
+    std::vector<double> area(fit_mesh.positions.size(), 0), whole(area.size(), 0);
     for (size_t t = 0; t < sums.size(); ++t)
         for (size_t k = 0; k < 3; ++k)
         {
-            area[proxy.indices[t * 3 + k]] += sums[t].corner_areas[k];
-            whole[proxy.indices[t * 3 + k]] += sums[t].corner_whole[k];
+            area[fit_mesh.indices[t * 3 + k]] += sums[t].corner_areas[k];
+            whole[fit_mesh.indices[t * 3 + k]] += sums[t].corner_whole[k];
         }
     for (size_t v = 0; v < area.size(); ++v)
         area[v] = whole[v] > 0 ? area[v] / whole[v] : 1;
@@ -181,12 +181,12 @@ std::vector<double> computeVertexShares(const Proxy& proxy, const std::vector<Tr
 /// Add the jumps of gradients, scaled by the smallest share of area that counts around their vertices.
 /// Without the scale, a vertex with almost no counting area would depend on jumps alone, which takes hundreds
 /// of iterations and spreads its value.
-void addJumps(NormalEquations& system, const Proxy& proxy, std::span<const double> areas,
+void addJumps(NormalEquations& system, const FitMesh& fit_mesh, std::span<const double> areas,
               std::span<const double> shares, double alpha, double stiffness)
 {
-    for (const mesh::InteriorEdge& edge : proxy.edges)
+    for (const mesh::InteriorEdge& edge : fit_mesh.edges)
     {
-        std::array<double, 4> jump = gradientJump(proxy.positions, edge);
+        std::array<double, 4> jump = gradientJump(fit_mesh.positions, edge);
         const std::array<uint32_t, 4> vertices{edge.a, edge.b, edge.k, edge.l};
         double share = 1;
         for (const uint32_t vertex : vertices)
@@ -216,13 +216,13 @@ double undersampling(const TriangleSums& sums, double area)
 }
 
 /// Add share * area * undersampling times the sum of (u_i - u_j)^2 over the edges of each triangle.
-void addMembrane(NormalEquations& system, const Proxy& proxy, const std::vector<TriangleSums>& sums,
+void addMembrane(NormalEquations& system, const FitMesh& fit_mesh, const std::vector<TriangleSums>& sums,
                  double share)
 {
     for (size_t t = 0; t < sums.size(); ++t)
     {
-        const uint32_t* corners = &proxy.indices[t * 3];
-        const double area = triangleArea(proxy.positions, corners) * sums[t].share();
+        const uint32_t* corners = &fit_mesh.indices[t * 3];
+        const double area = triangleArea(fit_mesh.positions, corners) * sums[t].share();
         const double weight = share * area * undersampling(sums[t], area);
         if (!(weight > 0))
             continue;
@@ -238,9 +238,9 @@ void addMembrane(NormalEquations& system, const Proxy& proxy, const std::vector<
     }
 }
 
-std::vector<uint32_t> findIslands(const Proxy& proxy)
+std::vector<uint32_t> findIslands(const FitMesh& fit_mesh)
 {
-    std::vector<uint32_t> island(proxy.positions.size());
+    std::vector<uint32_t> island(fit_mesh.positions.size());
     std::iota(island.begin(), island.end(), 0u);
     const auto find = [&](uint32_t v)
     {
@@ -248,10 +248,10 @@ std::vector<uint32_t> findIslands(const Proxy& proxy)
             v = island[v] = island[island[v]];
         return v;
     };
-    for (size_t t = 0; t < proxy.indices.size(); t += 3)
+    for (size_t t = 0; t < fit_mesh.indices.size(); t += 3)
         for (size_t k = 1; k < 3; ++k)
         {
-            const uint32_t a = find(proxy.indices[t]), b = find(proxy.indices[t + k]);
+            const uint32_t a = find(fit_mesh.indices[t]), b = find(fit_mesh.indices[t + k]);
             island[std::max(a, b)] = std::min(a, b);
         }
     for (uint32_t v = 0; v < island.size(); ++v)
@@ -278,20 +278,20 @@ std::array<double, 4> gradientJump(std::span<const Float3> positions, const mesh
     return {-k * (1 - foot_k) - l * (1 - foot_l), -k * foot_k - l * foot_l, k, l};
 }
 
-NormalEquations assemble(const Proxy& proxy, std::span<const SurfaceSample> samples,
+NormalEquations assemble(const FitMesh& fit_mesh, std::span<const SurfaceSample> samples,
                          std::span<const Moments> values, const FitSettings& settings)
 {
     HEARTH_ASSERT(samples.size() == values.size());
-    const std::vector<TriangleSums> sums = sumSamples(proxy.indices.size() / 3, samples, values);
+    const std::vector<TriangleSums> sums = sumSamples(fit_mesh.indices.size() / 3, samples, values);
     NormalEquations system;
-    system.matrix = createPattern(proxy);
-    system.right.resize(proxy.positions.size());
-    system.mass.assign(proxy.positions.size(), 0);
-    addMass(system, proxy, sums);
-    addJumps(system, proxy, computeVertexAreas(proxy), computeVertexShares(proxy, sums), settings.alpha,
-             settings.stiffness);
-    addMembrane(system, proxy, sums, settings.membrane);
-    system.island = findIslands(proxy);
+    system.matrix = createPattern(fit_mesh);
+    system.right.resize(fit_mesh.positions.size());
+    system.mass.assign(fit_mesh.positions.size(), 0);
+    addMass(system, fit_mesh, sums);
+    addJumps(system, fit_mesh, computeVertexAreas(fit_mesh), computeVertexShares(fit_mesh, sums),
+             settings.alpha, settings.stiffness);
+    addMembrane(system, fit_mesh, sums, settings.membrane);
+    system.island = findIslands(fit_mesh);
     return system;
 }
 

@@ -5,7 +5,7 @@
 
 #include "cook/visibility/fit/conjugate_gradients.h"
 #include "cook/visibility/fit/fit_settings.h"
-#include "cook/visibility/mesh/proxy.h"
+#include "cook/visibility/mesh/fit_mesh.h"
 
 #include <array>
 
@@ -29,9 +29,9 @@ struct NormalEquations
 /// Assemble sum_s area_s (u(s) - f_s)^2 + alpha sum_e jump_e(u)^2 -> min as matrix u = right. Mass and
 /// right-hand side are summed over the same samples, so that constants fit exactly for any samples. Triangles
 /// with too few or collinear samples get a weak membrane, which does not affect constants either.
-/// samples  on triangles of the proxy, or kInvalidIndex: not used
+/// samples  on triangles of the fit mesh, or kInvalidIndex: not used
 /// values   one for each sample
-NormalEquations assemble(const Proxy& proxy, std::span<const SurfaceSample> samples,
+NormalEquations assemble(const FitMesh& fit_mesh, std::span<const SurfaceSample> samples,
                          std::span<const Moments> values, const FitSettings& settings);
 
 } // namespace hearth::visibility

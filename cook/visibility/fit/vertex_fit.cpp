@@ -23,9 +23,9 @@ struct StartState
 
 /// Compute the start values: the mean of the samples around each vertex; without samples, the mean of its
 /// island (connected component). An island without samples and without a held vertex is taken for open.
-StartState computeStart(const Proxy& proxy, const NormalEquations& system, const HeldVertices& held)
+StartState computeStart(const FitMesh& fit_mesh, const NormalEquations& system, const HeldVertices& held)
 {
-    const size_t count = proxy.positions.size();
+    const size_t count = fit_mesh.positions.size();
     StartState start{std::vector<uint8_t>(count, 0), std::vector<Block4>(count), 0};
     std::vector<Block4> island_sums(count);
     std::vector<double> island_mass(count, 0);
@@ -58,7 +58,7 @@ StartState computeStart(const Proxy& proxy, const NormalEquations& system, const
         else
         {
             start.fixed[v] = 1;
-            start.values[v] = blockFromMoments(openHemisphere(proxy.normals[v]));
+            start.values[v] = blockFromMoments(openHemisphere(fit_mesh.normals[v]));
             ++start.unseen;
         }
     }
@@ -94,14 +94,14 @@ void eliminateFixed(NormalEquations& system, StartState& start)
 
 } // namespace
 
-FitResult fitVertices(const Proxy& proxy, std::span<const SurfaceSample> samples,
+FitResult fitVertices(const FitMesh& fit_mesh, std::span<const SurfaceSample> samples,
                       std::span<const Moments> values, const FitSettings& settings, const HeldVertices& held)
 {
-    const size_t count = proxy.positions.size();
+    const size_t count = fit_mesh.positions.size();
     HEARTH_ASSERT(samples.size() == values.size() && held.is_held.size() == held.moments.size());
     HEARTH_ASSERT(held.is_held.empty() || held.is_held.size() == count);
-    NormalEquations system = assemble(proxy, samples, values, settings);
-    StartState start = computeStart(proxy, system, held);
+    NormalEquations system = assemble(fit_mesh, samples, values, settings);
+    StartState start = computeStart(fit_mesh, system, held);
     eliminateFixed(system, start);
 
     FitResult result;
@@ -129,7 +129,7 @@ FitResult fitVertices(const Proxy& proxy, std::span<const SurfaceSample> samples
         }
         result.moments[v] = momentsFromBlock(start.fixed[v] != 0 ? start.values[v] : x[v]);
         if (settings.clamp)
-            statistics.clamped += clampMoments(result.moments[v], proxy.normals[v]);
+            statistics.clamped += clampMoments(result.moments[v], fit_mesh.normals[v]);
     }
     return result;
 }

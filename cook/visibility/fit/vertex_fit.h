@@ -5,7 +5,7 @@
 
 #include "cook/visibility/fit/conjugate_gradients.h"
 #include "cook/visibility/fit/fit_settings.h"
-#include "cook/visibility/mesh/proxy.h"
+#include "cook/visibility/mesh/fit_mesh.h"
 
 #include <vector>
 
@@ -14,7 +14,7 @@ namespace hearth::visibility
 
 struct FitStatistics
 {
-    uint32_t vertices = 0;     ///< of the proxy
+    uint32_t vertices = 0;     ///< of the fit mesh
     uint32_t held = 0;         ///< vertices with a given value
     uint32_t unseen = 0;       ///< vertices of connected components without samples: the open hemisphere
     uint32_t lost_samples = 0; ///< samples on no triangle
@@ -25,11 +25,11 @@ struct FitStatistics
 
 struct FitResult
 {
-    std::vector<Moments> moments; ///< for each vertex of the proxy
+    std::vector<Moments> moments; ///< for each vertex of the fit mesh
     FitStatistics statistics;
 };
 
-/// Known values: `moments` where `is_held`. Empty, or one for each vertex of the proxy.
+/// Known values: `moments` where `is_held`. Empty, or one for each vertex of the fit mesh.
 struct HeldVertices
 {
     std::span<const uint8_t> is_held;
@@ -38,10 +38,10 @@ struct HeldVertices
 
 /// Fit, and clamp each vertex's moments to what its normal allows (moment_clamp.h). Held vertices keep their
 /// bits. Constants are reproduced exactly; all results are finite. The same bits for any number of threads.
-/// samples  on the proxy: mapSamplesToProxy()
+/// samples  on the fit mesh: mapSamplesToFitMesh()
 /// values   one for each sample
 /// source   L. Kavan, A. W. Bargteil, P.-P. Sloan, "Least squares vertex baking", 2011
-FitResult fitVertices(const Proxy& proxy, std::span<const SurfaceSample> samples,
+FitResult fitVertices(const FitMesh& fit_mesh, std::span<const SurfaceSample> samples,
                       std::span<const Moments> values, const FitSettings& settings = {},
                       const HeldVertices& held = {});
 

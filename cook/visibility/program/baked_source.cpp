@@ -29,17 +29,14 @@ constexpr size_t kMaxInstances = 8;
 // them are distributed by area. See cook/visibility/README.md, "Noise".
 constexpr double kMinVertexSamples = 2.25;
 
-/// Plan the sampling of all meshes.
-/// originals, weights  of planSampling
-std::vector<MeshSampling> planMeshes(const PackView& scene, const PackView& part,
-                                     const SamplingSettings& settings, std::span<const uint32_t> originals,
-                                     std::span<const double> weights)
+/// Count the triangles of the levels of all meshes, none of meshes that are not baked.
+std::vector<std::vector<uint64_t>> countTriangles(const PackView& scene, const PackView& part)
 {
     std::vector<std::vector<uint64_t>> triangles(part.meshes().size());
     for (uint32_t mesh = 0; mesh < triangles.size(); ++mesh)
         if (isBaked(scene, part, mesh))
             triangles[mesh] = countLevelTriangles(part, mesh);
-    return planSampling(triangles, settings, originals, weights);
+    return triangles;
 }
 
 /// Return for each mesh of a neighbour the level that it is sampled on in its own bake, but for weights and
@@ -48,7 +45,7 @@ std::vector<uint32_t> planNeighbourLevels(const PackView& scene, const PackView&
                                           const SamplingSettings& settings)
 {
     std::vector<uint32_t> levels;
-    for (const MeshSampling& sampling : planMeshes(scene, part, settings, {}, {}))
+    for (const MeshSampling& sampling : planSampling(countTriangles(scene, part), settings))
         levels.push_back(sampling.level);
     return levels;
 }
@@ -86,18 +83,60 @@ bool isBaked(const PackView& scene, const PackView& part, uint32_t mesh)
            std::ranges::any_of(recordsInRange(part.clusters(), record.clusters), isLitCluster);
 }
 
+Result<MeshProxies> makeMeshProxies(const PackView& scene, const PackView& part, const PackView& proxies,
+                                    ProxyUse use)
+{
+    HEARTH_TRY(checkProxies(proxies));
+    for (const ProxyRecord& proxy : proxies.proxies())
+        if (proxy.mesh >= part.meshes().size())
+            return Error{Issue::meaning_reference, proxies.name(), "",
+                         "mesh " + std::to_string(proxy.mesh) + " is not in " + part.name()};
+    MeshProxies made{use, std::vector<std::optional<ProxySurface>>(part.meshes().size())};
+    SceneSurfaces surfaces(scene);
+    for (uint32_t mesh = 0; mesh < part.meshes().size(); ++mesh)
+    {
+        const MeshRecord& record = part.meshes()[mesh];
+        const ProxyRecord* const proxy = findFitProxy(proxies, record, mesh);
+        if (proxy == nullptr || !isBaked(scene, part, mesh))
+            continue;
+        HEARTH_ASSIGN_OR_RETURN(const SourceNormals normals, SourceNormals::read(scene, mesh, record));
+        HEARTH_ASSIGN_OR_RETURN(made.surfaces[mesh],
+                                makeProxySurface(surfaces, proxies, *proxy, part, normals));
+    }
+    return made;
+}
+
+const ProxySurface* BakedSource::findProxy(uint32_t mesh) const
+{
+    if (proxies == nullptr || !proxies->surfaces[originals[mesh]])
+        return nullptr;
+    return &*proxies->surfaces[originals[mesh]];
+}
+
+const ProxySurface* BakedSource::findSampledProxy(uint32_t mesh) const
+{
+    const ProxySurface* const proxy = findProxy(mesh);
+    return proxy != nullptr && proxies->use == ProxyUse::all && !isDeformed(part.meshes()[mesh]) ? proxy
+                                                                                                 : nullptr;
+}
+
 BakedSource BakedSource::make(const PackView& scene, const PackView& part,
                               std::span<const uint32_t> instance_meshes, const SamplingSettings& settings,
-                              std::span<const double> weights)
+                              std::span<const double> weights, const MeshProxies* proxies)
 {
-    std::vector<uint32_t> originals = findOriginalMeshes(scene, instance_meshes, part.meshes().size());
     BakedSource source{
         scene,
         part,
-        planMeshes(scene, part, settings, originals, weights),
-        std::move(originals),
+        {},
+        findOriginalMeshes(scene, instance_meshes, part.meshes().size()),
         std::vector<std::vector<MeshInstance>>(part.meshes().size()),
+        proxies,
     };
+    std::vector<std::vector<uint64_t>> triangles = countTriangles(scene, part);
+    for (uint32_t mesh = 0; mesh < triangles.size(); ++mesh)
+        if (const ProxySurface* const proxy = source.findSampledProxy(mesh); proxy != nullptr)
+            triangles[mesh] = {proxy->arrays.indices.size() / 3};
+    source.plan = planSampling(triangles, settings, source.originals, weights);
     for (uint32_t i = 0; i < instance_meshes.size(); ++i)
     {
         const Affine3& world_from_object = scene.instances()[i].world_from_object;
@@ -115,9 +154,14 @@ Status BakedSource::addOccluders(SceneSurfaces& surfaces, Occluders& world) cons
         const MeshRecord& record = part.meshes()[mesh];
         if (record.clusters.count == 0 || instances[mesh].empty() || isDeformed(record))
             continue;
+        const std::vector<Affine3> transforms = collectTransforms(instances[mesh]);
+        if (const ProxySurface* const proxy = findSampledProxy(mesh); proxy != nullptr)
+        {
+            addProxy(world, *proxy, transforms);
+            continue;
+        }
         HEARTH_ASSIGN_OR_RETURN(const MeshPages pages, MeshPages::readLevel(part, mesh, plan[mesh].level));
-        HEARTH_TRY(addMesh(world, surfaces, pages, extractLevel(pages, plan[mesh].level),
-                           collectTransforms(instances[mesh])));
+        HEARTH_TRY(addMesh(world, surfaces, pages, extractLevel(pages, plan[mesh].level), transforms));
     }
     return success();
 }
@@ -152,10 +196,10 @@ std::vector<Placement> placeInstances(const Occluders& world, std::span<const Me
 }
 
 std::vector<SurfaceSample> createSamples(const LevelArrays& level, double samples_per_vertex,
-                                         const ProxySettings& proxy)
+                                         const FitMeshSettings& fit_mesh)
 {
     // vertices that clusters share are in the arrays once for each cluster
-    const std::vector<uint32_t> first = findMergedVertices(level.mesh().mesh, proxy);
+    const std::vector<uint32_t> first = findMergedVertices(level.mesh().mesh, fit_mesh);
     std::vector<uint32_t> corners;
     corners.reserve(level.indices.size());
     for (const uint32_t corner : level.indices)
@@ -180,9 +224,10 @@ double computeArea(const LevelArrays& level)
     return area;
 }
 
-std::vector<SurfaceSample> choosePoints(const LevelArrays& level, const ProxySettings& proxy, size_t count)
+std::vector<SurfaceSample> choosePoints(const LevelArrays& level, const FitMeshSettings& fit_mesh,
+                                        size_t count)
 {
-    const std::vector<SurfaceSample> all = createSamples(level, 1, proxy);
+    const std::vector<SurfaceSample> all = createSamples(level, 1, fit_mesh);
     const std::vector<double> rates(all.size(), 1.0);
     std::vector<SurfaceSample> points;
     for (const ChosenSample& chosen :

@@ -6,9 +6,11 @@
 #include "cook/visibility/program/sampling_plan.h"
 #include "cook/visibility/rays/sampled_moments.h"
 #include "cook/visibility/scene/level_meshes.h"
+#include "cook/visibility/scene/proxy_surfaces.h"
 #include "cook/visibility/scene/scene_occluders.h"
 #include "formats/pack/pack_view.h"
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,6 +30,21 @@ struct PartPaths
 /// scene, part  of one source
 bool isBaked(const formats::PackView& scene, const formats::PackView& part, uint32_t mesh);
 
+/// Proxies of a source's meshes that are used.
+struct MeshProxies
+{
+    ProxyUse use = ProxyUse::none;
+    std::vector<std::optional<ProxySurface>> surfaces{}; ///< of each mesh of the source; empty: none is used
+};
+
+/// Make the surfaces of the proxies of all meshes that are baked and have a proxy to be fitted on.
+/// scene, part  of one source
+/// proxies      part with the table of its proxies
+/// errors: those of checkProxies, SourceNormals::read and makeProxySurface; meaning_reference for a proxy of
+/// a mesh that the source does not have
+Result<MeshProxies> makeMeshProxies(const formats::PackView& scene, const formats::PackView& part,
+                                    const formats::PackView& proxies, ProxyUse use);
+
 struct BakedSource
 {
     const formats::PackView& scene;  ///< import part
@@ -36,16 +53,25 @@ struct BakedSource
     std::vector<uint32_t> originals; ///< mesh of the source that each mesh of the part is, or copies
     /// Instances of each mesh; without those that are flat in the world.
     std::vector<std::vector<MeshInstance>> instances;
+    const MeshProxies* proxies; ///< null: none is used
+
+    /// Return the proxy that a mesh is fitted on, null if it is not fitted on one.
+    const ProxySurface* findProxy(uint32_t mesh) const;
+
+    /// Return the proxy that the samples of a mesh lie on, and that occludes in its place; null for none, as
+    /// for deformed meshes, which occlude themselves in their poses.
+    const ProxySurface* findSampledProxy(uint32_t mesh) const;
 
     /// scene, part      must outlive this
     /// instance_meshes  mesh of the part that each instance draws
     /// weights          of planSampling
+    /// proxies          null: none is used; must outlive this
     static BakedSource make(const formats::PackView& scene, const formats::PackView& part,
                             std::span<const uint32_t> instance_meshes, const SamplingSettings& settings,
-                            std::span<const double> weights = {});
+                            std::span<const double> weights = {}, const MeshProxies* proxies = nullptr);
 
-    /// Collect the occluders of the scene, at the levels that are sampled, so that no sample is inside its
-    /// own mesh. Deformed meshes occlude only themselves.
+    /// Collect the occluders of the scene: levels or proxies, as they are sampled, so that no sample is inside
+    /// its own mesh. Deformed meshes occlude only themselves.
     /// errors: those of MeshPages::read and addMesh
     Status addOccluders(SceneSurfaces& surfaces, Occluders& world) const;
 
@@ -62,10 +88,11 @@ std::vector<Placement> placeInstances(const Occluders& world, std::span<const Me
 
 /// Create samples on a level of a mesh.
 std::vector<SurfaceSample> createSamples(const LevelArrays& level, double samples_per_vertex,
-                                         const ProxySettings& proxy);
+                                         const FitMeshSettings& fit_mesh);
 
 /// Return `count` points evenly over the area of a level, or fewer of a level without area.
-std::vector<SurfaceSample> choosePoints(const LevelArrays& level, const ProxySettings& proxy, size_t count);
+std::vector<SurfaceSample> choosePoints(const LevelArrays& level, const FitMeshSettings& fit_mesh,
+                                        size_t count);
 
 /// Return the area of a level's triangles.
 double computeArea(const LevelArrays& level);

@@ -207,13 +207,13 @@ private:
 /// Return the candidates of a mesh.
 /// points  about as many of each instance
 Result<std::vector<Candidate>> findCandidates(const BakedSource& source, const Occluders& world,
-                                              uint32_t mesh, RaySettings rays, const ProxySettings& proxy,
-                                              size_t points)
+                                              uint32_t mesh, RaySettings rays,
+                                              const FitMeshSettings& fit_mesh, size_t points)
 {
     HEARTH_ASSIGN_OR_RETURN(const MeshPages pages,
                             MeshPages::readLevel(source.part, mesh, source.plan[mesh].level));
     const LevelArrays level = extractLevel(pages, source.plan[mesh].level);
-    const std::vector<SurfaceSample> samples = choosePoints(level, proxy, points);
+    const std::vector<SurfaceSample> samples = choosePoints(level, fit_mesh, points);
     const double area = computeArea(level);
     rays.seed += mesh;
     rays.rays_per_sample = kComparedRays;
@@ -261,7 +261,7 @@ bool mayNeedCopies(const BakedSource& source, uint64_t max_bytes)
 
 Result<MeshCopies> chooseCopies(const BakedSource& source, const Occluders& world,
                                 std::vector<uint32_t> instance_meshes, const RaySettings& rays,
-                                const ProxySettings& proxy, uint64_t max_bytes)
+                                const FitMeshSettings& fit_mesh, uint64_t max_bytes)
 {
     const std::vector<uint32_t> compared = findComparedMeshes(source, max_bytes);
     size_t count = 0;
@@ -273,7 +273,7 @@ Result<MeshCopies> chooseCopies(const BakedSource& source, const Occluders& worl
     for (const uint32_t mesh : compared)
     {
         HEARTH_ASSIGN_OR_RETURN(const std::vector<Candidate> of_mesh,
-                                findCandidates(source, world, mesh, rays, proxy, points));
+                                findCandidates(source, world, mesh, rays, fit_mesh, points));
         candidates.insert(candidates.end(), of_mesh.begin(), of_mesh.end());
     }
     MeshCopies copies{{}, std::move(instance_meshes)};

@@ -33,6 +33,6 @@ bool mayNeedCopies(const BakedSource& source, uint64_t max_bytes);
 /// errors: those of MeshPages::read
 Result<MeshCopies> chooseCopies(const BakedSource& source, const Occluders& world,
                                 std::vector<uint32_t> instance_meshes, const RaySettings& rays,
-                                const ProxySettings& proxy, uint64_t max_bytes);
+                                const FitMeshSettings& fit_mesh, uint64_t max_bytes);
 
 } // namespace hearth::visibility

@@ -48,10 +48,11 @@ SurfaceSample findPartner(const LevelArrays& level, const SurfaceSample& sample,
 }
 
 /// Return pairs of points, one after the other.
-std::vector<SurfaceSample> choosePairs(const LevelArrays& level, float distance, const ProxySettings& proxy)
+std::vector<SurfaceSample> choosePairs(const LevelArrays& level, float distance,
+                                       const FitMeshSettings& fit_mesh)
 {
     std::vector<SurfaceSample> pairs;
-    for (const SurfaceSample& point : choosePoints(level, proxy, kPairs))
+    for (const SurfaceSample& point : choosePoints(level, fit_mesh, kPairs))
     {
         pairs.push_back(point);
         pairs.push_back(findPartner(level, point, distance, static_cast<uint32_t>(pairs.size() / 2)));
@@ -92,7 +93,7 @@ double measurePairs(const Occluders& world, std::span<const SamplePoint> points,
 
 Result<std::vector<std::optional<double>>> measureVariation(const BakedSource& source, const Occluders& world,
                                                             std::span<const MeshSampling> plan,
-                                                            RaySettings rays, const ProxySettings& proxy)
+                                                            RaySettings rays, const FitMeshSettings& fit_mesh)
 {
     std::vector<std::optional<double>> variation;
     for (uint32_t mesh = 0; mesh < source.part.meshes().size(); ++mesh)
@@ -108,7 +109,7 @@ Result<std::vector<std::optional<double>>> measureVariation(const BakedSource& s
         const LevelArrays level = extractLevel(pages, source.plan[mesh].level);
         const float edge =
             computeEdge(computeArea(level), countLevelTriangles(source.part, mesh)[plan[mesh].level]);
-        const std::vector<SurfaceSample> pairs = choosePairs(level, edge, proxy);
+        const std::vector<SurfaceSample> pairs = choosePairs(level, edge, fit_mesh);
         const size_t count = std::min(kMeasuredInstances, instances.size());
         std::vector<SamplePoint> points;
         for (size_t i = 0; i < count; ++i)

@@ -23,7 +23,8 @@ namespace hearth::visibility
 /// errors: those of MeshPages::read
 Result<std::vector<std::optional<double>>> measureVariation(const BakedSource& source, const Occluders& world,
                                                             std::span<const MeshSampling> plan,
-                                                            RaySettings rays, const ProxySettings& proxy);
+                                                            RaySettings rays,
+                                                            const FitMeshSettings& fit_mesh);
 
 /// Return the weights of meshes for planSampling by their variation, about 1 on average, and 1 for those
 /// without.

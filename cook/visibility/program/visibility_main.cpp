@@ -48,6 +48,8 @@ struct Arguments
     std::string image;
     std::string quality = "default";
     std::vector<std::string> neighbours; ///< import and clusters part in turn
+    std::string proxies;                 ///< part; empty: those of the import part
+    visibility::ProxyUse proxy_use = visibility::ProxyUse::none;
     visibility::OccluderScope occluders = visibility::OccluderScope::pack;
     double copies = BakeSettings{}.copies;
     double samples_per_vertex = 0; ///< here and below, 0: value of the quality preset
@@ -73,8 +75,9 @@ struct Arguments
         settings.copies = copies;
         for (const std::string& text : poses)
             settings.poses.push_back(visibility::parseClipTimes(text).value_or(visibility::ClipTimes{}));
-        settings.refine_cones = refine_cones;
-        settings.estimate_error = !statistics.empty() && !statistics_without_noise;
+        settings.proxies = proxy_use;
+        settings.fit.refine_cones = refine_cones;
+        settings.fit.estimate_error = !statistics.empty() && !statistics_without_noise;
         return settings;
     }
 };
@@ -145,8 +148,11 @@ Result<int> cook(const Arguments& arguments)
     std::vector<visibility::PartPaths> neighbours;
     for (size_t i = 0; i + 1 < arguments.neighbours.size(); i += 2)
         neighbours.push_back({arguments.neighbours[i], arguments.neighbours[i + 1]});
+    HEARTH_ASSIGN_OR_RETURN(
+        const formats::PackView proxies,
+        tools::openPart(arguments.proxies.empty() ? arguments.import_part : arguments.proxies));
     HEARTH_ASSIGN_OR_RETURN(const auto meshes,
-                            visibility::writeVisibilityPart(import_part, clusters_part, neighbours,
+                            visibility::writeVisibilityPart(import_part, clusters_part, proxies, neighbours,
                                                             arguments.output, arguments.settings(), observe));
     if (!meshes)
         return kInterrupted;
@@ -202,6 +208,17 @@ int program(int argc, char** argv)
                   "those of the source's geometry; 0: no copies")
         .range(0.0, 64.0, "FLOAT")
         .showDefault();
+    std::map<std::string, visibility::ProxyUse> uses;
+    for (const auto use : {visibility::ProxyUse::none, visibility::ProxyUse::fit, visibility::ProxyUse::all})
+        uses.emplace(visibility::proxyUseName(use), use);
+    app.addChoice(
+        "--use-proxies", arguments.proxy_use, uses,
+        "use of proxies that are near their meshes: none (the default), fit (visibility is fitted on "
+        "them, and the mesh takes it from there) or all (rays start on them and meet them, too)");
+    app.addOption("--proxies", arguments.proxies,
+                  "proxy part of the same source; without it the proxies that artists made, of the import "
+                  "part")
+        .typeName("PART");
     const cli::Option distance =
         app.addOption("--distance", arguments.distance,
                       "metres: what is farther away hides nothing; no limit by default")

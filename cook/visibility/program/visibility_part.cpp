@@ -5,7 +5,6 @@
 #include "cook/pages/mesh_copies.h"
 #include "cook/pages/rewrite.h"
 #include "cook/tools/open_part.h"
-#include "cook/visibility/fit/finer_levels.h"
 #include "cook/visibility/program/instance_copies.h"
 #include "cook/visibility/program/instance_light.h"
 #include "cook/visibility/program/variation.h"
@@ -19,9 +18,7 @@
 #include <algorithm>
 #include <chrono>
 #include <deque>
-#include <numbers>
 
-#include <tbb/parallel_for.h>
 #include <unistd.h>
 
 namespace hearth::visibility
@@ -117,9 +114,10 @@ private:
     Result<std::optional<MeshStatistics>> bake(uint32_t mesh, const Occluders& world)
     {
         HEARTH_ASSIGN_OR_RETURN(const MeshPages pages, MeshPages::read(part_, mesh));
-        std::vector<LevelArrays> levels = extractLevels(pages);
+        const std::vector<LevelArrays> levels = extractLevels(pages);
         const MeshSampling& plan = source_.plan[mesh];
-        const LevelArrays& sampled = levels[plan.level];
+        const ProxySurface* const proxy = source_.findSampledProxy(mesh);
+        const LevelArrays& sampled = proxy != nullptr ? proxy->arrays : levels[plan.level];
         HEARTH_ASSIGN_OR_RETURN(const SourceNormals normals,
                                 SourceNormals::read(scene_, source_.originals[mesh], pages.record()));
         const bool deformed = isDeformed(pages.record());
@@ -137,7 +135,7 @@ private:
         std::vector<Placement> places;
         if (alone)
         {
-            HEARTH_ASSIGN_OR_RETURN(places, placeAlone(pages, sampled, statistics, itself));
+            HEARTH_ASSIGN_OR_RETURN(places, placeAlone(pages, sampled, proxy, statistics, itself));
         }
         else
         {
@@ -148,7 +146,7 @@ private:
         }
         const auto start = std::chrono::steady_clock::now();
         std::vector<SurfaceSample> samples =
-            createSamples(sampled, plan.samples_per_vertex, settings_.fit.proxy);
+            createSamples(sampled, plan.samples_per_vertex, settings_.fit.levels.fit_mesh);
         const std::optional<SampledMoments> seen =
             trace(sampled, plan.rays_per_sample, samples, places, statistics);
         if (!seen)
@@ -161,7 +159,12 @@ private:
             }
         statistics.ray_seconds = secondsSince(start);
         bakeSurroundings(sampled, samples, *seen, alone, places, statistics);
-        fit(levels, samples, *seen, normals, statistics);
+        const ProxySurface* const fitted = source_.findProxy(mesh);
+        if (fitted != nullptr)
+            statistics.proxy = proxy != nullptr ? ProxyUse::all : ProxyUse::fit;
+        fit({levels, plan.level, fitted != nullptr ? &fitted->arrays : nullptr, proxy != nullptr, samples,
+             *seen, normals},
+            statistics);
         return std::optional(std::move(statistics));
     }
 
@@ -210,15 +213,20 @@ private:
     }
 
     /// Create the placements of a mesh alone: one without a pose, or one for each of its poses.
+    /// proxy  that occludes in place of the mesh; null: the mesh itself does
     Result<std::vector<Placement>> placeAlone(const MeshPages& pages, const LevelArrays& sampled,
-                                              MeshStatistics& statistics, std::deque<Occluders>& itself)
+                                              const ProxySurface* proxy, MeshStatistics& statistics,
+                                              std::deque<Occluders>& itself)
     {
         std::vector<Placement> places;
         const Affine3 identity;
         const auto add = [&](std::string name, const LevelArrays& level, std::vector<Float3> posed) -> Status
         {
             Occluders& occluders = itself.emplace_back();
-            HEARTH_TRY(addMesh(occluders, surfaces_, pages, level, {&identity, 1}));
+            if (proxy != nullptr)
+                addProxy(occluders, *proxy, {&identity, 1});
+            else
+                HEARTH_TRY(addMesh(occluders, surfaces_, pages, level, {&identity, 1}));
             occluders.finish();
             places.push_back({&occluders, identity, std::move(posed)});
             statistics.poses.push_back(std::move(name));
@@ -250,7 +258,7 @@ private:
         if (statistics.instances > 0)
             rays.rays_per_sample /= static_cast<uint32_t>(places.size());
         rays.seed += statistics.mesh; // meshes at the same place have independent noise
-        auto seen = sampledMoments(level.mesh().mesh, samples, places, rays, settings_.refine_cones,
+        auto seen = sampledMoments(level.mesh().mesh, samples, places, rays, settings_.fit.refine_cones,
                                    [&](size_t place, uint64_t done, uint64_t total)
                                    { return report(place, places.size(), done, total); });
         if (!seen)
@@ -271,131 +279,23 @@ private:
         return observe_({share_before_ + share_of_mesh_ * share, rays_before_ + place * total + done});
     }
 
-    void fit(const std::vector<LevelArrays>& levels, const std::vector<SurfaceSample>& samples,
-             const SampledMoments& seen, const SourceNormals& normals, MeshStatistics& statistics)
+    void fit(const SampledMesh& mesh, MeshStatistics& statistics)
     {
         const auto start = std::chrono::steady_clock::now();
-        const size_t sampled = statistics.sampled_level;
-        std::vector<LevelMesh> meshes;
-        for (const LevelArrays& level : levels)
-            meshes.push_back(level.mesh());
-        std::vector<LevelMesh> fitted(meshes.begin() + statistics.sampled_level, meshes.end());
-        fitted.front().finer_vertex = {}; // nothing finer is fitted
-        std::vector<LevelFit> fits = fitLevels(fitted, samples, seen.moments, settings_.fit);
-        if (settings_.refine_cones)
-            statistics.refined = refineLevels(fitted, samples, seen.second, settings_.fit, fits);
-        std::vector<std::vector<Moments>> moments =
-            interpolateFinerLevels(std::span(meshes).first(sampled + 1), fits.front().moments);
-        statistics.proxy = fits.front().proxy;
-        for (LevelFit& fit : fits)
+        MeshFit fitted = fitMesh(mesh, settings_.fit);
+        statistics.fit = fitted.statistics;
+        for (size_t l = 0; l < mesh.levels.size(); ++l)
         {
-            const FitStatistics& of_level = fit.statistics;
-            statistics.max_iterations_used =
-                std::max(statistics.max_iterations_used, of_level.solve.iterations);
-            statistics.condition = std::max(statistics.condition, of_level.solve.condition);
-            statistics.converged = statistics.converged && of_level.solve.converged;
-            statistics.vertices += of_level.vertices;
-            statistics.clamped += of_level.clamped;
-            statistics.unseen += of_level.unseen;
-            moments.push_back(std::move(fit.moments));
-        }
-        encode(levels, moments, normals, sampled);
-        statistics.fit_seconds = secondsSince(start);
-        if (settings_.estimate_error)
-            statistics.ao_error = estimateNoise(levels[sampled], samples, seen.moments);
-    }
-
-    /// Encode the moments of all levels. Clusters that several cuts draw have equal codes in all of them.
-    void encode(std::span<const LevelArrays> levels, std::span<const std::vector<Moments>> moments,
-                const SourceNormals& normals, size_t sampled)
-    {
-        const std::vector<std::vector<uint8_t>> is_interpolated = findInterpolated(levels, sampled);
-        std::vector<uint32_t> finer_codes;
-        for (size_t l = 0; l < levels.size(); ++l)
-        {
-            std::vector<uint32_t> codes =
-                encodeLevel(levels[l], moments[l], normals, is_interpolated[l], finer_codes);
-            for (size_t i = 0; i < levels[l].parts.size(); ++i)
+            const std::span<const LevelArrays::Part> parts = mesh.levels[l].parts;
+            const std::vector<uint32_t>& codes = fitted.codes[l];
+            for (size_t i = 0; i < parts.size(); ++i)
             {
-                const std::span<const LevelArrays::Part> parts = levels[l].parts;
                 const size_t end = i + 1 < parts.size() ? parts[i + 1].first_vertex : codes.size();
                 codes_[parts[i].cluster].assign(codes.begin() + parts[i].first_vertex,
                                                 codes.begin() + static_cast<ptrdiff_t>(end));
             }
-            finer_codes = std::move(codes);
         }
-    }
-
-    /// Return for each vertex of each level 1, if its moments are interpolated from the sampled level: about
-    /// its own normal, as it is stored. Those of others are about the source's normal.
-    static std::vector<std::vector<uint8_t>> findInterpolated(std::span<const LevelArrays> levels,
-                                                              size_t sampled)
-    {
-        std::vector<std::vector<uint8_t>> interpolated;
-        for (size_t l = 0; l < levels.size(); ++l)
-            interpolated.emplace_back(levels[l].positions.size(), l < sampled ? 1 : 0);
-        for (size_t l = sampled; l > 0; --l)
-            for (size_t v = 0; v < interpolated[l].size(); ++v)
-                if (const uint32_t finer = levels[l].finer_vertex[v]; finer != kInvalidIndex)
-                    interpolated[l - 1][finer] = interpolated[l][v];
-        return interpolated;
-    }
-
-    /// Encode the moments of a level's vertices. Vertices with the moments of another one have its code.
-    /// is_interpolated  of findInterpolated
-    /// finer_codes      of the next finer level
-    static std::vector<uint32_t> encodeLevel(const LevelArrays& level, std::span<const Moments> moments,
-                                             const SourceNormals& normals,
-                                             std::span<const uint8_t> is_interpolated,
-                                             std::span<const uint32_t> finer_codes)
-    {
-        std::vector<uint32_t> codes(level.positions.size());
-        const auto encodeVertex = [&](size_t v)
-        {
-            if (level.first_copy[v] != v)
-                return;
-            if (!level.finer_vertex.empty() && level.finer_vertex[v] != kInvalidIndex)
-            {
-                codes[v] = finer_codes[level.finer_vertex[v]];
-                return;
-            }
-            const Float3 normal = level.normals[v];
-            const Float3 exact = is_interpolated[v] != 0 ? normal : normals.find(level.positions[v], normal);
-            codes[v] = encodeVisibility(moments[v].m0, turnWithNormal(moments[v].m1, exact, normal), normal);
-        };
-        tbb::parallel_for(size_t{0}, codes.size(), encodeVertex);
-        for (size_t v = 0; v < codes.size(); ++v)
-            codes[v] = codes[level.first_copy[v]];
-        return codes;
-    }
-
-    /// Estimate the noise of ambient occlusion. Two fits, each to every other sample, differ by twice the
-    /// noise of the fit to both: the noise of their rays, and of the samples' positions.
-    double estimateNoise(const LevelArrays& level, std::span<const SurfaceSample> samples,
-                         std::span<const Moments> moments) const
-    {
-        std::array<std::vector<Moments>, 2> fitted;
-        for (size_t half = 0; half < 2; ++half)
-        {
-            std::vector<SurfaceSample> subset;
-            std::vector<Moments> values;
-            for (size_t s = half; s < samples.size(); s += 2)
-            {
-                subset.push_back(samples[s]);
-                subset.back().area *= 2; // each half represents the whole surface
-                values.push_back(moments[s]);
-            }
-            const LevelMesh mesh = level.mesh();
-            fitted[half] = std::move(fitLevels({&mesh, 1}, subset, values, settings_.fit).front().moments);
-        }
-        double sum = 0;
-        for (size_t v = 0; v < level.normals.size(); ++v)
-        {
-            const double difference =
-                dot(level.normals[v], fitted[0][v].m1 - fitted[1][v].m1) / (2 * std::numbers::pi);
-            sum += difference * difference;
-        }
-        return std::sqrt(sum / static_cast<double>(std::max<size_t>(level.normals.size(), 1)));
+        statistics.fit_seconds = secondsSince(start);
     }
 
     const BakedSource& source_;
@@ -456,11 +356,12 @@ Result<Preparation> prepare(const PackView& scene, const PackView& part,
     HEARTH_TRY(collectOccluders(source, neighbours, settings, surfaces, world));
     HEARTH_ASSIGN_OR_RETURN(preparation.copies,
                             chooseCopies(source, world, std::move(preparation.copies.instance_meshes),
-                                         settings.rays, settings.fit.proxy, max_bytes));
+                                         settings.rays, settings.fit.levels.fit_mesh, max_bytes));
     if (!is_limited)
         return preparation;
-    HEARTH_ASSIGN_OR_RETURN(const std::vector<std::optional<double>> variation,
-                            measureVariation(source, world, even.plan, settings.rays, settings.fit.proxy));
+    HEARTH_ASSIGN_OR_RETURN(
+        const std::vector<std::optional<double>> variation,
+        measureVariation(source, world, even.plan, settings.rays, settings.fit.levels.fit_mesh));
     preparation.weights = makeWeights(variation);
     return preparation;
 }
@@ -523,37 +424,38 @@ Json meshJson(const MeshStatistics& mesh)
         {"samples", mesh.samples},
         {"rays", mesh.rays},
         {"seconds", {{"rays", mesh.ray_seconds}, {"fit", mesh.fit_seconds}, {"light", mesh.light_seconds}}},
-        {"proxy",
-         {{"source_vertices", mesh.proxy.source_vertices},
-          {"welded", mesh.proxy.welded},
-          {"nearest", mesh.proxy.nearest},
-          {"degenerate", mesh.proxy.thin.degenerate},
-          {"duplicate", mesh.proxy.thin.duplicate},
-          {"collapsed", mesh.proxy.thin.collapsed},
-          {"flipped", mesh.proxy.thin.flipped},
-          {"dropped", mesh.proxy.thin.dropped}}},
+        {"proxy", proxyUseName(mesh.proxy)},
+        {"fit_mesh",
+         {{"source_vertices", mesh.fit.fit_mesh.source_vertices},
+          {"welded", mesh.fit.fit_mesh.welded},
+          {"nearest", mesh.fit.fit_mesh.nearest},
+          {"degenerate", mesh.fit.fit_mesh.thin.degenerate},
+          {"duplicate", mesh.fit.fit_mesh.thin.duplicate},
+          {"collapsed", mesh.fit.fit_mesh.thin.collapsed},
+          {"flipped", mesh.fit.fit_mesh.thin.flipped},
+          {"dropped", mesh.fit.fit_mesh.thin.dropped}}},
         {"solve",
-         {{"iterations", mesh.max_iterations_used},
-          {"condition", mesh.condition},
-          {"converged", mesh.converged}}},
-        {"vertices", mesh.vertices},
-        {"clamped", mesh.clamped},
-        {"unseen", mesh.unseen},
+         {{"iterations", mesh.fit.iterations},
+          {"condition", mesh.fit.condition},
+          {"converged", mesh.fit.converged}}},
+        {"vertices", mesh.fit.vertices},
+        {"clamped", mesh.fit.clamped},
+        {"unseen", mesh.fit.unseen},
         {"interior_samples", mesh.interior_samples},
     };
-    if (mesh.refined)
-        json["refined"] = {{"cones", mesh.refined->cones},
-                           {"distance_before", mesh.refined->statistics.start_rms},
-                           {"distance", mesh.refined->statistics.rms}};
-    if (mesh.ao_error)
-        json["ao_error"] = *mesh.ao_error;
+    if (mesh.fit.refined)
+        json["refined"] = {{"cones", mesh.fit.refined->cones},
+                           {"distance_before", mesh.fit.refined->statistics.start_rms},
+                           {"distance", mesh.fit.refined->statistics.rms}};
+    if (mesh.fit.ao_error)
+        json["ao_error"] = *mesh.fit.ao_error;
     return json;
 }
 
 } // namespace
 
 Result<std::optional<std::vector<MeshStatistics>>>
-writeVisibilityPart(const PackView& import_part, const PackView& clusters_part,
+writeVisibilityPart(const PackView& import_part, const PackView& clusters_part, const PackView& proxies,
                     std::span<const PartPaths> neighbours, const std::string& output_path,
                     const BakeSettings& settings, const BakeObserver& observe)
 {
@@ -561,11 +463,18 @@ writeVisibilityPart(const PackView& import_part, const PackView& clusters_part,
     HEARTH_ASSIGN_OR_RETURN(std::vector<uint32_t> own_meshes, readInstanceMeshes(import_part, clusters_part));
     HEARTH_ASSIGN_OR_RETURN(const Preparation preparation,
                             prepare(import_part, clusters_part, std::move(own_meshes), neighbours, settings));
+    MeshProxies mesh_proxies;
+    if (settings.proxies != ProxyUse::none)
+    {
+        HEARTH_ASSIGN_OR_RETURN(mesh_proxies,
+                                makeMeshProxies(import_part, clusters_part, proxies, settings.proxies));
+    }
+    const MeshProxies* const used = settings.proxies != ProxyUse::none ? &mesh_proxies : nullptr;
     const MeshCopies& copies = preparation.copies;
     const auto bake = [&](const PackView& part)
     {
         return bakePart(BakedSource::make(import_part, part, copies.instance_meshes, settings.sampling,
-                                          preparation.weights),
+                                          preparation.weights, used),
                         copies.instance_meshes, neighbours, output_path, settings, observe);
     };
     if (copies.meshes.empty())

@@ -3,10 +3,9 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "cook/visibility/fit/level_fit.h"
-#include "cook/visibility/fit/refined_levels.h"
 #include "cook/visibility/program/baked_source.h"
 #include "cook/visibility/program/instance_visibility.h"
+#include "cook/visibility/program/mesh_fit.h"
 #include "cook/visibility/program/sampling_plan.h"
 #include "cook/visibility/rays/rays.h"
 #include "cook/visibility/scene/poses.h"
@@ -40,10 +39,9 @@ struct BakeSettings
     OccluderScope occluders = OccluderScope::pack;
     /// Bytes that copies of meshes may take, over those of the source's pages; 0: no copies.
     double copies = 0.25;
-    LevelFitSettings fit;
+    MeshFitSettings fit;
+    ProxyUse proxies = ProxyUse::none;
     std::vector<ClipTimes> poses; ///< deformed meshes get the mean over these; empty: the bind pose
-    bool refine_cones = false;    ///< fit cones to nine harmonics instead of four moments: refined_levels.h
-    bool estimate_error = false;  ///< fill MeshStatistics::ao_error, which takes two more fits
 };
 
 /// Statistics of one baked mesh.
@@ -58,23 +56,15 @@ struct MeshStatistics
     double spread = 0; ///< rms difference of ambient occlusion between instances, or poses, and their mean
     std::optional<InstanceSpread> instance_spread; ///< of all instances, where there are several
     uint32_t levels = 0;
-    uint32_t sampled_level = 0; ///< that samples lie on; finer ones are interpolated
+    uint32_t sampled_level = 0; ///< that samples lie on, if not on the proxy; finer ones are interpolated
     uint64_t samples = 0;
     uint64_t rays = 0;
     uint64_t interior_samples = 0; ///< interior samples: covered so closely that they hardly count
     double ray_seconds = 0;
     double fit_seconds = 0;
     double light_seconds = 0; ///< of the light of its instances' occluders
-    ProxyStatistics proxy;    ///< of the sampled level
-    uint32_t max_iterations_used = 0;
-    double condition = 0;              ///< largest of all fitted levels
-    bool converged = true;             ///< on all of them
-    uint64_t vertices = 0;             ///< of their proxies
-    uint64_t clamped = 0;              ///< vertices whose fit was no valid visibility
-    uint64_t unseen = 0;               ///< vertices of connected components without samples
-    std::optional<RefineGain> refined; ///< if requested
-    /// Rms error of ambient occlusion at the sampled level's vertices, by the choice of samples and rays.
-    std::optional<double> ao_error;
+    MeshFitStatistics fit;
+    ProxyUse proxy = ProxyUse::none; ///< use of the mesh's own proxy
 };
 
 struct BakeProgress
@@ -93,16 +83,19 @@ using BakeObserver = std::function<bool(const BakeProgress& progress)>;
 ///
 /// import_part    instances, materials, images and the source's normals
 /// clusters_part  of the same source
+/// proxies        of the same source: part with the table of its proxies, for settings.proxies
 /// neighbours     other sources in the same world that occlude, if settings.occluders is pack; opened one by
 ///                one
 /// observe        may be empty
 /// returns  nothing if `observe` returned false
-/// errors: those of checkHierarchy, rewriteVisibility, addMesh, openPart and mesh::readSourceMesh;
+/// errors: those of checkHierarchy, makeMeshProxies, rewriteVisibility, addMesh, openPart and
+/// mesh::readSourceMesh;
 /// meaning_reference if the parts are of different sources
 Result<std::optional<std::vector<MeshStatistics>>>
 writeVisibilityPart(const formats::PackView& import_part, const formats::PackView& clusters_part,
-                    std::span<const PartPaths> neighbours, const std::string& output_path,
-                    const BakeSettings& settings, const BakeObserver& observe);
+                    const formats::PackView& proxies, std::span<const PartPaths> neighbours,
+                    const std::string& output_path, const BakeSettings& settings,
+                    const BakeObserver& observe);
 
 /// Return the statistics of all meshes as JSON text.
 /// neighbours  number of other sources that occlude

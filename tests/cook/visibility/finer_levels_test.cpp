@@ -186,22 +186,46 @@ TEST(InterpolateFinerLevels, doesNotCrossHardEdges)
                 level.mesh.indices.insert(level.mesh.indices.end(), corners.begin(), corners.end());
             }
     };
-    // the planes differ by 60 degrees, so that a vertex on the edge faces both
-    const Float3 slanted{0.5f, std::sqrt(0.75f), 0}, slanted_normal{std::sqrt(0.75f), -0.5f, 0};
-    Level fine, coarse;
-    for (const auto& [level, n] : {std::pair(&fine, 9u), std::pair(&coarse, 2u)})
+    // a vertex on the edge faces both planes; at 40 degrees both triangles face it within 45
+    for (const double degrees : {60.0, 40.0})
     {
-        addWall(*level, n, {-1, 0, 0}, {0, -1, 0});
-        addWall(*level, n, slanted, slanted_normal);
+        const double angle = degrees * std::numbers::pi / 180;
+        const auto sine = static_cast<float>(std::sin(angle)), cosine = static_cast<float>(std::cos(angle));
+        Level fine, coarse;
+        for (const auto& [level, n] : {std::pair(&fine, 9u), std::pair(&coarse, 2u)})
+        {
+            addWall(*level, n, {-1, 0, 0}, {0, -1, 0});
+            addWall(*level, n, {cosine, sine, 0}, {sine, -cosine, 0});
+        }
+        coarse.finer_vertex.assign(coarse.mesh.positions.size(), kInvalidIndex);
+        std::vector<Moments> fitted;
+        for (const Float3 normal : coarse.mesh.normals)
+            fitted.push_back({normal.x == 0 ? 2.0f : 5.0f, {}});
+        const std::vector<LevelMesh> views{fine.view(), coarse.view()};
+        const std::vector<Moments> moments = interpolateFinerLevels(views, fitted)[0];
+        for (size_t v = 0; v < moments.size(); ++v)
+            EXPECT_NEAR(moments[v].m0, fine.mesh.normals[v].x == 0 ? 2 : 5, 1e-5) << degrees;
     }
-    coarse.finer_vertex.assign(coarse.mesh.positions.size(), kInvalidIndex);
-    std::vector<Moments> fitted;
-    for (const Float3 normal : coarse.mesh.normals)
-        fitted.push_back({normal.x == 0 ? 2.0f : 5.0f, {}});
-    const std::vector<LevelMesh> views{fine.view(), coarse.view()};
-    const std::vector<Moments> moments = interpolateFinerLevels(views, fitted)[0];
-    for (size_t v = 0; v < moments.size(); ++v)
-        EXPECT_NEAR(moments[v].m0, fine.mesh.normals[v].x == 0 ? 2 : 5, 1e-5);
+}
+
+TEST(InterpolateFinerLevels, givesMergedVerticesOneValue)
+{
+    Sphere sphere;
+    // two vertices of the finest level whose normals differ, one of which the next level has, too
+    Level& fine = sphere.levels[0];
+    const uint32_t shared = sphere.levels[1].finer_vertex[0];
+    fine.mesh.positions.push_back(fine.mesh.positions[shared]);
+    fine.mesh.normals.push_back(normalizeOr(fine.mesh.normals[shared] + Float3{0.02f, 0, 0}, {}));
+    fine.first_copy.push_back(shared);
+    const std::vector<std::vector<Moments>> moments = sphere.interpolate();
+    EXPECT_EQ(std::memcmp(&moments[0].back(), &moments[0][shared], sizeof(Moments)), 0);
+    EXPECT_EQ(std::memcmp(&moments[1][0], &moments[0][shared], sizeof(Moments)), 0);
+    // the same if the other one is the first
+    fine.first_copy[shared] = static_cast<uint32_t>(fine.first_copy.size() - 1);
+    fine.first_copy.back() = fine.first_copy[shared];
+    const std::vector<std::vector<Moments>> swapped = sphere.interpolate();
+    EXPECT_EQ(std::memcmp(&swapped[0].back(), &moments[1][0], sizeof(Moments)), 0);
+    EXPECT_EQ(std::memcmp(&swapped[0][shared], &moments[1][0], sizeof(Moments)), 0);
 }
 
 TEST(InterpolateFinerLevels, hasTheSameBitsForAnyNumberOfThreads)

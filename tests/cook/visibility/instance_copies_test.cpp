@@ -82,8 +82,8 @@ protected:
         const PackView scene = PackView::read(open(import_path)).value();
         BakeSettings settings;
         settings.copies = copies;
-        const auto statistics = writeVisibilityPart(scene, PackView::read(open(clusters_path)).value(), {},
-                                                    baked_path, settings, {});
+        const auto statistics = writeVisibilityPart(scene, PackView::read(open(clusters_path)).value(), scene,
+                                                    {}, baked_path, settings, {});
         EXPECT_TRUE(statistics.ok());
         return readInstanceMeshes(scene, PackView::read(open(baked_path)).value()).value();
     }

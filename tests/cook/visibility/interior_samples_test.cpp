@@ -56,15 +56,15 @@ TEST(BuriedPoints, areNotThoseInTheDark)
 TEST(FitVertices, doesNotChangeWhereAllSamplesCountAsLittle)
 {
     const mesh::SourceMesh rock = shapes::rock(8, 0.4f);
-    const Proxy proxy = makeProxy(test::makeMeshView(rock));
-    std::vector<SurfaceSample> samples = test::makeSamples(proxy.view(), 2);
+    const FitMesh fit_mesh = makeFitMesh(test::makeMeshView(rock));
+    std::vector<SurfaceSample> samples = test::makeSamples(fit_mesh.view(), 2);
     std::vector<Moments> values;
     for (const SurfaceSample& sample : samples)
-        values.push_back({3 + test::getPoint(proxy.view(), sample).x, {0, 0.1f, 0.2f}});
-    const FitResult whole = fitVertices(proxy, samples, values);
+        values.push_back({3 + test::getPoint(fit_mesh.view(), sample).x, {0, 0.1f, 0.2f}});
+    const FitResult whole = fitVertices(fit_mesh, samples, values);
     for (SurfaceSample& sample : samples)
         sample.weight = 1e-3f;
-    const FitResult little = fitVertices(proxy, samples, values);
+    const FitResult little = fitVertices(fit_mesh, samples, values);
     for (size_t v = 0; v < whole.moments.size(); ++v)
         EXPECT_NEAR(whole.moments[v].m0, little.moments[v].m0, 1e-5);
 }
@@ -75,25 +75,25 @@ TEST(FitVertices, isRightBesideWhatIsBuriedInFewIterations)
     // affected
     mesh::SourceMesh grid = shapes::grid(40);
     grid.normals.assign(grid.vertexCount(), {});
-    const Proxy proxy = makeProxy(test::makeMeshView(grid));
+    const FitMesh fit_mesh = makeFitMesh(test::makeMeshView(grid));
     Box3 box;
-    for (const Float3 p : proxy.positions)
+    for (const Float3 p : fit_mesh.positions)
         box.add(p);
     const float middle = box.center().x;
-    std::vector<SurfaceSample> samples = test::makeSamples(proxy.view(), 3);
+    std::vector<SurfaceSample> samples = test::makeSamples(fit_mesh.view(), 3);
     std::vector<Moments> values;
     for (SurfaceSample& sample : samples)
     {
-        const bool is_interior = test::getPoint(proxy.view(), sample).x > middle + 0.01f;
+        const bool is_interior = test::getPoint(fit_mesh.view(), sample).x > middle + 0.01f;
         sample.weight = is_interior ? 1e-3f : 1;
         values.push_back({is_interior ? 0.0f : 6.0f, {}});
     }
-    const FitResult fit = fitVertices(proxy, samples, values);
+    const FitResult fit = fitVertices(fit_mesh, samples, values);
     EXPECT_LE(fit.statistics.solve.iterations, 25u);
     const float step = (box.max.x - box.min.x) / 40;
-    for (size_t v = 0; v < proxy.positions.size(); ++v)
+    for (size_t v = 0; v < fit_mesh.positions.size(); ++v)
     {
-        const float x = proxy.positions[v].x;
+        const float x = fit_mesh.positions[v].x;
         if (x < middle || x > middle + 3 * step)
         {
             EXPECT_NEAR(fit.moments[v].m0, x < middle ? 6 : 0, 0.05);

@@ -30,12 +30,12 @@ namespace
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-/// Proxy of a mesh, without normals, so that the clamp does not change directions.
-Proxy buildProxy(const mesh::SourceMesh& mesh, const ProxySettings& settings = {})
+/// FitMesh of a mesh, without normals, so that the clamp does not change directions.
+FitMesh buildFitMesh(const mesh::SourceMesh& mesh, const FitMeshSettings& settings = {})
 {
-    Proxy proxy = makeProxy(makeMeshView(mesh), settings);
-    std::fill(proxy.normals.begin(), proxy.normals.end(), Float3{});
-    return proxy;
+    FitMesh fit_mesh = makeFitMesh(makeMeshView(mesh), settings);
+    std::fill(fit_mesh.normals.begin(), fit_mesh.normals.end(), Float3{});
+    return fit_mesh;
 }
 
 /// Moments that vary smoothly over space and that clamping leaves alone.
@@ -45,11 +45,11 @@ Moments fieldAt(Float3 p)
             {0.3f * std::cos(3 * p.y), 0.2f * p.z, 0.5f + 0.2f * std::sin(p.x + p.z)}};
 }
 
-std::vector<Moments> sampleField(const Proxy& proxy, const std::vector<SurfaceSample>& samples)
+std::vector<Moments> sampleField(const FitMesh& fit_mesh, const std::vector<SurfaceSample>& samples)
 {
     std::vector<Moments> values;
     for (const SurfaceSample& sample : samples)
-        values.push_back(fieldAt(getPoint(proxy.view(), sample)));
+        values.push_back(fieldAt(getPoint(fit_mesh.view(), sample)));
     return values;
 }
 
@@ -91,9 +91,9 @@ Eigen::Matrix<double, 2, 3> computeGradient(const std::array<Eigen::Vector2d, 3>
 
 /// Return the matrix over vertices a, b, k, l of (A1 + A2)^2 |g1 - g2|^2. Both triangles lie in one plane
 /// with the edge along the first axis.
-Eigen::Matrix4d computeJump(const Proxy& proxy, const mesh::InteriorEdge& edge)
+Eigen::Matrix4d computeJump(const FitMesh& fit_mesh, const mesh::InteriorEdge& edge)
 {
-    const auto at = [&](uint32_t v) { return widen(proxy.positions[v]); };
+    const auto at = [&](uint32_t v) { return widen(fit_mesh.positions[v]); };
     const Double3 along = at(edge.b) - at(edge.a);
     const double size = length(along);
     const auto flat = [&](uint32_t v, double side)
@@ -137,15 +137,15 @@ struct Dense
     Matrix all(double alpha) const { return mass + alpha * jumps; }
 };
 
-Dense makeDense(const Proxy& proxy, const std::vector<SurfaceSample>& samples,
+Dense makeDense(const FitMesh& fit_mesh, const std::vector<SurfaceSample>& samples,
                 const std::vector<Moments>& values)
 {
-    const auto n = static_cast<Eigen::Index>(proxy.positions.size());
+    const auto n = static_cast<Eigen::Index>(fit_mesh.positions.size());
     Dense dense{Matrix::Zero(n, n), Matrix::Zero(n, n), Matrix::Zero(n, 4)};
     for (size_t i = 0; i < samples.size(); ++i)
     {
         Vector row = Vector::Zero(n);
-        const uint32_t* corners = &proxy.indices[size_t{samples[i].triangle} * 3];
+        const uint32_t* corners = &fit_mesh.indices[size_t{samples[i].triangle} * 3];
         const double u = samples[i].u, v = samples[i].v;
         row[corners[0]] += 1 - u - v;
         row[corners[1]] += u;
@@ -154,10 +154,10 @@ Dense makeDense(const Proxy& proxy, const std::vector<SurfaceSample>& samples,
         const Moments& m = values[i];
         dense.right += samples[i].area * row * Eigen::RowVector4d(m.m0, m.m1.x, m.m1.y, m.m1.z);
     }
-    for (const mesh::InteriorEdge& edge : proxy.edges)
+    for (const mesh::InteriorEdge& edge : fit_mesh.edges)
     {
         const std::array<uint32_t, 4> vertices{edge.a, edge.b, edge.k, edge.l};
-        const Eigen::Matrix4d jump = computeJump(proxy, edge);
+        const Eigen::Matrix4d jump = computeJump(fit_mesh, edge);
         for (int i = 0; i < 4; ++i)
             for (int j = 0; j < 4; ++j)
                 dense.jumps(vertices[static_cast<size_t>(i)], vertices[static_cast<size_t>(j)]) += jump(i, j);
@@ -180,7 +180,7 @@ constexpr double kAlpha = 0.1;
 /// Ceres residuals: one for each term of the fit's sum of squares.
 struct CeresResiduals
 {
-    const Proxy& proxy;
+    const FitMesh& fit_mesh;
     const std::vector<SurfaceSample>& samples;
     const std::vector<Moments>& values;
 
@@ -191,14 +191,14 @@ struct CeresResiduals
         for (size_t i = 0; i < samples.size(); ++i)
         {
             const SurfaceSample& s = samples[i];
-            const uint32_t* c = &proxy.indices[size_t{s.triangle} * 3];
+            const uint32_t* c = &fit_mesh.indices[size_t{s.triangle} * 3];
             const T interpolated =
                 u[c[0]] * double(1 - s.u - s.v) + u[c[1]] * double(s.u) + u[c[2]] * double(s.v);
             *residuals++ = (interpolated - double(values[i].m0)) * std::sqrt(double(s.area));
         }
-        for (const mesh::InteriorEdge& edge : proxy.edges)
+        for (const mesh::InteriorEdge& edge : fit_mesh.edges)
         {
-            const std::array<double, 4> jump = gradientJump(proxy.positions, edge);
+            const std::array<double, 4> jump = gradientJump(fit_mesh.positions, edge);
             *residuals++ =
                 (u[edge.a] * jump[0] + u[edge.b] * jump[1] + u[edge.k] * jump[2] + u[edge.l] * jump[3]) *
                 std::sqrt(kAlpha);
@@ -234,28 +234,28 @@ TEST(GradientJump, isTheOuterProductOfBakingForAUnitSquare)
 
 TEST(GradientJump, isWhatDifferencesOfGradientsGive)
 {
-    const Proxy proxy = buildProxy(shapes::rock(3, 0.6f));
-    ASSERT_GT(proxy.edges.size(), 50u);
-    for (const mesh::InteriorEdge& edge : proxy.edges)
+    const FitMesh fit_mesh = buildFitMesh(shapes::rock(3, 0.6f));
+    ASSERT_GT(fit_mesh.edges.size(), 50u);
+    for (const mesh::InteriorEdge& edge : fit_mesh.edges)
     {
-        const std::array<double, 4> jump = gradientJump(proxy.positions, edge);
+        const std::array<double, 4> jump = gradientJump(fit_mesh.positions, edge);
         const Eigen::Vector4d row(jump.data());
-        EXPECT_LT((row * row.transpose() - computeJump(proxy, edge)).norm(),
-                  1e-9 * computeJump(proxy, edge).norm());
+        EXPECT_LT((row * row.transpose() - computeJump(fit_mesh, edge)).norm(),
+                  1e-9 * computeJump(fit_mesh, edge).norm());
         EXPECT_NEAR(row.sum(), 0, 1e-9) << "constants have no gradient";
     }
 }
 
 TEST(GradientJump, isNothingForLinearFunctionsInAPlane)
 {
-    const Proxy proxy = buildProxy(unevenGrid(8));
-    for (const mesh::InteriorEdge& edge : proxy.edges)
+    const FitMesh fit_mesh = buildFitMesh(unevenGrid(8));
+    for (const mesh::InteriorEdge& edge : fit_mesh.edges)
     {
-        const std::array<double, 4> jump = gradientJump(proxy.positions, edge);
+        const std::array<double, 4> jump = gradientJump(fit_mesh.positions, edge);
         const std::array<uint32_t, 4> vertices{edge.a, edge.b, edge.k, edge.l};
         double sum = 0;
         for (size_t i = 0; i < 4; ++i)
-            sum += jump[i] * dot(widen(proxy.positions[vertices[i]]), Double3{1, -3, 2});
+            sum += jump[i] * dot(widen(fit_mesh.positions[vertices[i]]), Double3{1, -3, 2});
         EXPECT_NEAR(sum, 0, 1e-9);
     }
 }
@@ -264,19 +264,19 @@ TEST(FitVertices, isTheSolutionOfTheDenseSystem)
 {
     for (const double alpha : {0.0, 0.1, 1.0})
     {
-        const Proxy proxy = buildProxy(shapes::rock(4, 0.4f));
-        const std::vector<SurfaceSample> samples = makeSamples(proxy.view(), 5);
-        const std::vector<Moments> values = sampleField(proxy, samples);
+        const FitMesh fit_mesh = buildFitMesh(shapes::rock(4, 0.4f));
+        const std::vector<SurfaceSample> samples = makeSamples(fit_mesh.view(), 5);
+        const std::vector<Moments> values = sampleField(fit_mesh, samples);
         FitSettings settings = asPublished();
         settings.alpha = alpha;
-        const FitResult fit = fitVertices(proxy, samples, values, settings);
-        const Dense dense = makeDense(proxy, samples, values);
+        const FitResult fit = fitVertices(fit_mesh, samples, values, settings);
+        const Dense dense = makeDense(fit_mesh, samples, values);
         const Matrix expected = dense.all(alpha).ldlt().solve(dense.right);
         EXPECT_LT(largestDifference(fit.moments, expected), 2e-6) << "alpha " << alpha;
         EXPECT_TRUE(fit.statistics.solve.converged);
         EXPECT_EQ(fit.statistics.clamped, 0u);
 
-        const Matrix inverse = invert(assemble(proxy, samples, values, settings).matrix);
+        const Matrix inverse = invert(assemble(fit_mesh, samples, values, settings).matrix);
         const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> eigen(dense.all(alpha), inverse.inverse());
         const double condition = eigen.eigenvalues().maxCoeff() / eigen.eigenvalues().minCoeff();
         EXPECT_LE(fit.statistics.solve.condition, condition * 1.01);
@@ -286,14 +286,14 @@ TEST(FitVertices, isTheSolutionOfTheDenseSystem)
 
 TEST(FitVertices, isWhatCeresFinds)
 {
-    const Proxy proxy = buildProxy(shapes::rock(2, 0.4f));
-    const std::vector<SurfaceSample> samples = makeSamples(proxy.view(), 4);
-    const std::vector<Moments> values = sampleField(proxy, samples);
-    auto* cost =
-        new ceres::DynamicAutoDiffCostFunction<CeresResiduals, 8>(new CeresResiduals{proxy, samples, values});
-    cost->AddParameterBlock(static_cast<int>(proxy.positions.size()));
-    cost->SetNumResiduals(static_cast<int>(samples.size() + proxy.edges.size()));
-    std::vector<double> u(proxy.positions.size(), 0);
+    const FitMesh fit_mesh = buildFitMesh(shapes::rock(2, 0.4f));
+    const std::vector<SurfaceSample> samples = makeSamples(fit_mesh.view(), 4);
+    const std::vector<Moments> values = sampleField(fit_mesh, samples);
+    auto* cost = new ceres::DynamicAutoDiffCostFunction<CeresResiduals, 8>(
+        new CeresResiduals{fit_mesh, samples, values});
+    cost->AddParameterBlock(static_cast<int>(fit_mesh.positions.size()));
+    cost->SetNumResiduals(static_cast<int>(samples.size() + fit_mesh.edges.size()));
+    std::vector<double> u(fit_mesh.positions.size(), 0);
     ceres::Problem problem;
     problem.AddResidualBlock(cost, nullptr, u.data());
     ceres::Solver::Options options;
@@ -305,7 +305,7 @@ TEST(FitVertices, isWhatCeresFinds)
 
     FitSettings settings = asPublished();
     settings.alpha = kAlpha;
-    const FitResult fit = fitVertices(proxy, samples, values, settings);
+    const FitResult fit = fitVertices(fit_mesh, samples, values, settings);
     for (size_t v = 0; v < u.size(); ++v)
         EXPECT_NEAR(fit.moments[v].m0, u[v], 2e-6);
 }
@@ -319,13 +319,13 @@ TEST(FitVertices, bringsConstantsBackOnAnyMesh)
     for (mesh::SourceMesh& mesh : meshes)
     {
         mesh.normals.resize(mesh.vertexCount(), {0, 0, 1});
-        const Proxy proxy = buildProxy(mesh);
-        std::vector<SurfaceSample> samples = makeSamples(proxy.view(), 2);
+        const FitMesh fit_mesh = buildFitMesh(mesh);
+        std::vector<SurfaceSample> samples = makeSamples(fit_mesh.view(), 2);
         std::mt19937 random(9);
         // some triangles have no sample; in the triangle soup, whole components have none
         std::erase_if(samples, [&](const SurfaceSample&) { return random() % 3 == 0; });
         const std::vector<Moments> values(samples.size(), constant);
-        const FitResult fit = fitVertices(proxy, samples, values);
+        const FitResult fit = fitVertices(fit_mesh, samples, values);
         const Moments open{6.2831853f, {}};
         uint32_t unseen = 0;
         for (const Moments& m : fit.moments)
@@ -344,24 +344,24 @@ TEST(FitVertices, bringsConstantsBackOnAnyMesh)
 
 TEST(FitVertices, bringsLinearFunctionsBackInAPlane)
 {
-    const Proxy proxy = buildProxy(unevenGrid(10));
-    const std::vector<SurfaceSample> samples = makeSamples(proxy.view(), 40);
+    const FitMesh fit_mesh = buildFitMesh(unevenGrid(10));
+    const std::vector<SurfaceSample> samples = makeSamples(fit_mesh.view(), 40);
     std::vector<Moments> values;
     const auto linear = [](Float3 p) {
         return Moments{3 + p.x - 2 * p.y, {0.1f * p.x, 0.1f * p.z, 0.2f * p.y}};
     };
     for (const SurfaceSample& sample : samples)
-        values.push_back(linear(getPoint(proxy.view(), sample)));
+        values.push_back(linear(getPoint(fit_mesh.view(), sample)));
     FitSettings settings;
     settings.alpha = 1;
-    const FitResult fit = fitVertices(proxy, samples, values, settings);
-    for (size_t v = 0; v < proxy.positions.size(); ++v)
-        EXPECT_NEAR(fit.moments[v].m0, linear(proxy.positions[v]).m0, 5e-6f);
+    const FitResult fit = fitVertices(fit_mesh, samples, values, settings);
+    for (size_t v = 0; v < fit_mesh.positions.size(); ++v)
+        EXPECT_NEAR(fit.moments[v].m0, linear(fit_mesh.positions[v]).m0, 5e-6f);
 }
 
 TEST(FitVertices, needsFewIterationsWhereSmallTrianglesMeetLargeOnes)
 {
-    // cells that shrink to a hundredth and grow again; none is thin enough for the proxy to remove
+    // cells that shrink to a hundredth and grow again; none is thin enough for the fit mesh to remove
     mesh::SourceMesh mesh = shapes::grid(30);
     Box3 box;
     for (const Float3 p : mesh.positions)
@@ -374,32 +374,32 @@ TEST(FitVertices, needsFewIterationsWhereSmallTrianglesMeetLargeOnes)
                 p[axis] = x * x * x * 0.99f + x * 0.01f;
             }
     mesh.normals.assign(mesh.vertexCount(), {0, 0, 1});
-    const Proxy proxy = buildProxy(mesh);
-    const std::vector<SurfaceSample> samples = makeSamples(proxy.view(), 4);
-    const std::vector<Moments> values = sampleField(proxy, samples);
-    const SolveStatistics published = fitVertices(proxy, samples, values, asPublished()).statistics.solve;
-    const FitResult fit = fitVertices(proxy, samples, values);
+    const FitMesh fit_mesh = buildFitMesh(mesh);
+    const std::vector<SurfaceSample> samples = makeSamples(fit_mesh.view(), 4);
+    const std::vector<Moments> values = sampleField(fit_mesh, samples);
+    const SolveStatistics published = fitVertices(fit_mesh, samples, values, asPublished()).statistics.solve;
+    const FitResult fit = fitVertices(fit_mesh, samples, values);
     std::printf("condition %.3g, %u iterations as published; %.3g, %u\n", published.condition,
                 published.iterations, fit.statistics.solve.condition, fit.statistics.solve.iterations);
     EXPECT_LE(fit.statistics.solve.iterations, 40u);
     EXPECT_GE(published.iterations, 2 * fit.statistics.solve.iterations);
-    for (size_t v = 0; v < proxy.positions.size(); ++v)
-        EXPECT_NEAR(fit.moments[v].m0, fieldAt(proxy.positions[v]).m0, 0.04f);
+    for (size_t v = 0; v < fit_mesh.positions.size(); ++v)
+        EXPECT_NEAR(fit.moments[v].m0, fieldAt(fit_mesh.positions[v]).m0, 0.04f);
 }
 
 TEST(FitVertices, makesTheBestOfTrianglesAlone)
 {
     mesh::SourceMesh soup = shapes::soup(300);
     soup.normals.assign(soup.vertexCount(), {0, 0, 1});
-    const Proxy proxy = buildProxy(soup);
+    const FitMesh fit_mesh = buildFitMesh(soup);
     for (const uint32_t per_triangle : {1u, 2u, 3u, 4u})
     {
-        const std::vector<SurfaceSample> samples = makeSamples(proxy.view(), per_triangle);
+        const std::vector<SurfaceSample> samples = makeSamples(fit_mesh.view(), per_triangle);
         Normal normal(per_triangle);
         std::vector<Moments> values;
         for (size_t i = 0; i < samples.size(); ++i)
             values.push_back({3 + 0.1f * normal(), {}});
-        const FitResult fit = fitVertices(proxy, samples, values);
+        const FitResult fit = fitVertices(fit_mesh, samples, values);
         EXPECT_LE(fit.statistics.solve.iterations, 45u);
         double sum = 0;
         for (const Moments& m : fit.moments)
@@ -411,7 +411,7 @@ TEST(FitVertices, makesTheBestOfTrianglesAlone)
 TEST(FitVertices, doesNotKnowTheUnitOfLength)
 {
     mesh::SourceMesh mesh = shapes::rock(6, 0.4f);
-    const Proxy small = buildProxy(mesh);
+    const FitMesh small = buildFitMesh(mesh);
     const std::vector<SurfaceSample> samples = makeSamples(small.view(), 3);
     const std::vector<Moments> values = sampleField(small, samples);
     for (const float factor : {100.0f, 1e-3f})
@@ -419,7 +419,7 @@ TEST(FitVertices, doesNotKnowTheUnitOfLength)
         mesh::SourceMesh scaled = mesh;
         for (Float3& p : scaled.positions)
             p = p * factor;
-        const Proxy large = buildProxy(scaled);
+        const FitMesh large = buildFitMesh(scaled);
         std::vector<SurfaceSample> moved = samples;
         for (SurfaceSample& sample : moved)
             sample.area *= factor * factor;
@@ -432,13 +432,13 @@ TEST(FitVertices, doesNotKnowTheUnitOfLength)
 
 TEST(FitVertices, solvesAroundVerticesThatAreHeld)
 {
-    const Proxy proxy = buildProxy(shapes::rock(4, 0.4f));
-    const std::vector<SurfaceSample> samples = makeSamples(proxy.view(), 4);
-    const std::vector<Moments> values = sampleField(proxy, samples);
-    const size_t count = proxy.positions.size();
+    const FitMesh fit_mesh = buildFitMesh(shapes::rock(4, 0.4f));
+    const std::vector<SurfaceSample> samples = makeSamples(fit_mesh.view(), 4);
+    const std::vector<Moments> values = sampleField(fit_mesh, samples);
+    const size_t count = fit_mesh.positions.size();
     std::vector<uint8_t> is_held(count, 0);
     std::vector<Moments> moments(count);
-    const Dense dense = makeDense(proxy, samples, values);
+    const Dense dense = makeDense(fit_mesh, samples, values);
     Matrix system = dense.all(0.1), right = dense.right;
     for (size_t v = 0; v < count; v += 3)
     {
@@ -450,7 +450,7 @@ TEST(FitVertices, solvesAroundVerticesThatAreHeld)
         for (int k = 0; k < 4; ++k)
             right(row, k) = blockFromMoments(moments[v]).v[k];
     }
-    const FitResult fit = fitVertices(proxy, samples, values, asPublished(), {is_held, moments});
+    const FitResult fit = fitVertices(fit_mesh, samples, values, asPublished(), {is_held, moments});
     EXPECT_LT(largestDifference(fit.moments, system.partialPivLu().solve(right)), 2e-6);
     EXPECT_EQ(fit.statistics.held, (count + 2) / 3);
     for (size_t v = 0; v < count; v += 3)
@@ -459,26 +459,26 @@ TEST(FitVertices, solvesAroundVerticesThatAreHeld)
 
 TEST(FitVertices, carriesOnWhereNoSamplesAre)
 {
-    const Proxy proxy = buildProxy(shapes::grid(20));
-    std::vector<SurfaceSample> samples = makeSamples(proxy.view(), 4);
+    const FitMesh fit_mesh = buildFitMesh(shapes::grid(20));
+    std::vector<SurfaceSample> samples = makeSamples(fit_mesh.view(), 4);
     // a gap in the samples as wide as a quarter of the square
     const Box3 box = [&]
     {
         Box3 all;
-        for (const Float3 p : proxy.positions)
+        for (const Float3 p : fit_mesh.positions)
             all.add(p);
         return all;
     }();
     const Float3 center = box.center();
-    std::erase_if(samples,
-                  [&](const SurfaceSample& s) { return length(getPoint(proxy.view(), s) - center) < 0.2f; });
+    std::erase_if(samples, [&](const SurfaceSample& s)
+                  { return length(getPoint(fit_mesh.view(), s) - center) < 0.2f; });
     std::vector<Moments> values;
     const auto linear = [&](Float3 p) { return Moments{3 + dot(p - center, Float3{1, 1, 1}), {}}; };
     for (const SurfaceSample& sample : samples)
-        values.push_back(linear(getPoint(proxy.view(), sample)));
-    const FitResult fit = fitVertices(proxy, samples, values);
-    for (size_t v = 0; v < proxy.positions.size(); ++v)
-        EXPECT_NEAR(fit.moments[v].m0, linear(proxy.positions[v]).m0, 0.02f);
+        values.push_back(linear(getPoint(fit_mesh.view(), sample)));
+    const FitResult fit = fitVertices(fit_mesh, samples, values);
+    for (size_t v = 0; v < fit_mesh.positions.size(); ++v)
+        EXPECT_NEAR(fit.moments[v].m0, linear(fit_mesh.positions[v]).m0, 0.02f);
 }
 
 TEST(FitVertices, needsFewIterationsOnlyWithoutSlivers)
@@ -495,13 +495,13 @@ TEST(FitVertices, needsFewIterationsOnlyWithoutSlivers)
     mesh.indices.insert(mesh.indices.end(),
                         {mesh.indices[t + 1], corner_c, middle, corner_c, mesh.indices[t], middle});
     mesh.indices[t + 2] = middle;
-    ProxySettings raw;
+    FitMeshSettings raw;
     raw.thinness = 0;
-    const Proxy with = buildProxy(mesh, raw), without = buildProxy(mesh);
-    const auto fitField = [](const Proxy& proxy)
+    const FitMesh with = buildFitMesh(mesh, raw), without = buildFitMesh(mesh);
+    const auto fitField = [](const FitMesh& fit_mesh)
     {
-        const std::vector<SurfaceSample> samples = makeSamples(proxy.view(), 4);
-        return fitVertices(proxy, samples, sampleField(proxy, samples), asPublished()).statistics.solve;
+        const std::vector<SurfaceSample> samples = makeSamples(fit_mesh.view(), 4);
+        return fitVertices(fit_mesh, samples, sampleField(fit_mesh, samples), asPublished()).statistics.solve;
     };
     const SolveStatistics slivers = fitField(with), clean = fitField(without);
     EXPECT_EQ(without.statistics.thin.flipped, 1u);
@@ -518,21 +518,21 @@ TEST(FitVertices, needsFewIterationsForAnySize)
     for (const uint32_t per_triangle : {1u, 4u})
         for (const uint32_t n : {8u, 16u, 32u})
         {
-            const Proxy proxy = buildProxy(shapes::rock(n, 0.5f));
-            const std::vector<SurfaceSample> samples = makeSamples(proxy.view(), per_triangle);
-            const FitStatistics s = fitVertices(proxy, samples, sampleField(proxy, samples)).statistics;
+            const FitMesh fit_mesh = buildFitMesh(shapes::rock(n, 0.5f));
+            const std::vector<SurfaceSample> samples = makeSamples(fit_mesh.view(), per_triangle);
+            const FitStatistics s = fitVertices(fit_mesh, samples, sampleField(fit_mesh, samples)).statistics;
             EXPECT_LE(s.solve.iterations, 40u);
             std::printf("%5zu vertices, %u samples a triangle: condition %.3g, %u iterations\n",
-                        proxy.positions.size(), per_triangle, s.solve.condition, s.solve.iterations);
+                        fit_mesh.positions.size(), per_triangle, s.solve.condition, s.solve.iterations);
         }
 }
 
 TEST(FitVertices, takesNoiseAway)
 {
-    const Proxy proxy = buildProxy(shapes::grid(40));
-    const std::vector<SurfaceSample> samples = makeSamples(proxy.view(), 8);
+    const FitMesh fit_mesh = buildFitMesh(shapes::grid(40));
+    const std::vector<SurfaceSample> samples = makeSamples(fit_mesh.view(), 8);
     const double per_vertex =
-        static_cast<double>(samples.size()) / static_cast<double>(proxy.positions.size());
+        static_cast<double>(samples.size()) / static_cast<double>(fit_mesh.positions.size());
     struct Expected
     {
         double alpha, least, most;
@@ -546,14 +546,14 @@ TEST(FitVertices, takesNoiseAway)
         FitSettings settings;
         settings.alpha = e.alpha;
         settings.max_iterations = 3000;
-        const FitResult fit = fitVertices(proxy, samples, values, settings);
+        const FitResult fit = fitVertices(fit_mesh, samples, values, settings);
         double sum = 0;
         size_t count = 0;
-        for (size_t v = 0; v < proxy.positions.size(); ++v)
+        for (size_t v = 0; v < fit_mesh.positions.size(); ++v)
         {
-            const Float3 p = proxy.positions[v];
+            const Float3 p = fit_mesh.positions[v];
             Box3 box;
-            for (const Float3 q : proxy.positions)
+            for (const Float3 q : fit_mesh.positions)
                 box.add(q);
             bool inside = true;
             for (int axis = 0; axis < 3; ++axis)
@@ -580,9 +580,9 @@ TEST(FitVertices, hasTheSameBitsForAnyNumberOfThreads)
     for (const size_t threads : {1u, 2u, 3u})
     {
         const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-        const Proxy proxy = buildProxy(rock);
-        const std::vector<SurfaceSample> samples = makeSamples(proxy.view(), 2);
-        results.push_back(fitVertices(proxy, samples, sampleField(proxy, samples)).moments);
+        const FitMesh fit_mesh = buildFitMesh(rock);
+        const std::vector<SurfaceSample> samples = makeSamples(fit_mesh.view(), 2);
+        results.push_back(fitVertices(fit_mesh, samples, sampleField(fit_mesh, samples)).moments);
     }
     for (const std::vector<Moments>& other : results)
         EXPECT_EQ(std::memcmp(results[0].data(), other.data(), other.size() * sizeof(Moments)), 0);

@@ -1,9 +1,9 @@
-// Tests the proxy mesh on which visibility is fitted.
+// Tests the fit mesh mesh on which visibility is fitted.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/mesh/closest_point.h"
 #include "cook/visibility/fit/vertex_fit.h"
+#include "cook/visibility/mesh/fit_mesh.h"
 #include "cook/visibility/mesh/moment_clamp.h"
-#include "cook/visibility/mesh/proxy.h"
 #include "cook/visibility/mesh/vertex_weld.h"
 #include "tests/cook/visibility/mesh_samples.h"
 #include "tests/support/shapes.h"
@@ -40,14 +40,14 @@ struct FlatMesh
     }
 };
 
-double lowestTriangle(const Proxy& proxy)
+double lowestTriangle(const FitMesh& fit_mesh)
 {
     double least = 1;
-    for (size_t t = 0; t < proxy.smooth_count; ++t)
+    for (size_t t = 0; t < fit_mesh.smooth_count; ++t)
     {
-        const uint32_t* corner = &proxy.indices[t * 3];
-        const Float3 a = proxy.positions[corner[0]], b = proxy.positions[corner[1]],
-                     c = proxy.positions[corner[2]];
+        const uint32_t* corner = &fit_mesh.indices[t * 3];
+        const Float3 a = fit_mesh.positions[corner[0]], b = fit_mesh.positions[corner[1]],
+                     c = fit_mesh.positions[corner[2]];
         const double longest = std::max({length(b - a), length(c - b), length(a - c)});
         least =
             std::min(least, length(cross(widen(b) - widen(a), widen(c) - widen(a))) / (longest * longest));
@@ -134,22 +134,22 @@ TEST(WeldVertices, isWhatComparingAllPairsGives)
     EXPECT_LT(std::set(expected.begin(), expected.end()).size(), 550u) << "nothing was to be welded";
 }
 
-TEST(MakeProxy, weldsSeamsAndKeepsHardEdges)
+TEST(MakeFitMesh, weldsSeamsAndKeepsHardEdges)
 {
     const mesh::SourceMesh rock = shapes::rock(8, 0.3f);
-    const Proxy smooth = makeProxy(makeMeshView(rock));
+    const FitMesh smooth = makeFitMesh(makeMeshView(rock));
     EXPECT_LT(distinctPositions(rock.positions), rock.vertexCount()) << "the rock has no seams";
     EXPECT_EQ(smooth.positions.size(), distinctPositions(rock.positions));
     EXPECT_EQ(smooth.edges.size() * 2, smooth.smooth_count * 3) << "it is closed";
 
     const mesh::SourceMesh blocks = shapes::blocks(4);
-    const Proxy hard = makeProxy(makeMeshView(blocks));
+    const FitMesh hard = makeFitMesh(makeMeshView(blocks));
     for (size_t v = 0; v < blocks.vertexCount(); ++v)
         EXPECT_EQ(dot(hard.normals[hard.bindings[v].vertices[0]], blocks.normals[v]), 1)
             << "of faces that meet at a right angle";
 }
 
-TEST(MakeProxy, dropsFacesThatAreThereTwice)
+TEST(MakeFitMesh, dropsFacesThatAreThereTwice)
 {
     FlatMesh mesh = square(3);
     const size_t once = mesh.indices.size();
@@ -163,18 +163,18 @@ TEST(MakeProxy, dropsFacesThatAreThereTwice)
     }
     mesh.indices.insert(mesh.indices.end(), {4, 4, 5});
     const MeshView view = mesh.view();
-    const Proxy proxy = makeProxy(view);
-    EXPECT_EQ(proxy.indices.size(), once);
-    EXPECT_EQ(proxy.positions.size(), 16u);
-    EXPECT_EQ(proxy.statistics.thin.duplicate, once / 3 + 2);
-    EXPECT_EQ(proxy.statistics.thin.degenerate, 1u);
+    const FitMesh fit_mesh = makeFitMesh(view);
+    EXPECT_EQ(fit_mesh.indices.size(), once);
+    EXPECT_EQ(fit_mesh.positions.size(), 16u);
+    EXPECT_EQ(fit_mesh.statistics.thin.duplicate, once / 3 + 2);
+    EXPECT_EQ(fit_mesh.statistics.thin.degenerate, 1u);
     const std::vector<SurfaceSample> samples = makeSamples(view, 2);
-    const std::vector<SurfaceSample> moved = mapSamplesToProxy(proxy, view, samples);
+    const std::vector<SurfaceSample> moved = mapSamplesToFitMesh(fit_mesh, view, samples);
     for (size_t i = 0; i < samples.size(); ++i)
-        EXPECT_LT(length(getPoint(view, samples[i]) - getPoint(proxy.view(), moved[i])), 1e-6f);
+        EXPECT_LT(length(getPoint(view, samples[i]) - getPoint(fit_mesh.view(), moved[i])), 1e-6f);
 }
 
-TEST(MakeProxy, collapsesNeedlesAndFlipsCaps)
+TEST(MakeFitMesh, collapsesNeedlesAndFlipsCaps)
 {
     FlatMesh mesh = square(4);
     const double area = computeArea(mesh.view());
@@ -200,24 +200,24 @@ TEST(MakeProxy, collapsesNeedlesAndFlipsCaps)
             break;
         }
     const MeshView view = mesh.view();
-    const Proxy proxy = makeProxy(view);
-    EXPECT_GE(proxy.statistics.thin.collapsed, 1u);
-    EXPECT_GE(proxy.statistics.thin.flipped, 1u);
-    EXPECT_EQ(proxy.statistics.thin.dropped, 0u);
-    EXPECT_GE(lowestTriangle(proxy), 1e-3);
-    EXPECT_NEAR(computeArea(proxy.view()), area, 1e-4) << "a hole was left";
+    const FitMesh fit_mesh = makeFitMesh(view);
+    EXPECT_GE(fit_mesh.statistics.thin.collapsed, 1u);
+    EXPECT_GE(fit_mesh.statistics.thin.flipped, 1u);
+    EXPECT_EQ(fit_mesh.statistics.thin.dropped, 0u);
+    EXPECT_GE(lowestTriangle(fit_mesh), 1e-3);
+    EXPECT_NEAR(computeArea(fit_mesh.view()), area, 1e-4) << "a hole was left";
     const std::vector<SurfaceSample> samples = makeSamples(view, 3),
-                                     moved = mapSamplesToProxy(proxy, view, samples);
+                                     moved = mapSamplesToFitMesh(fit_mesh, view, samples);
     for (size_t i = 0; i < samples.size(); ++i)
     {
         ASSERT_NE(moved[i].triangle, kInvalidIndex);
-        EXPECT_LT(length(getPoint(proxy.view(), moved[i]) - getPoint(view, samples[i])), 3e-5f);
+        EXPECT_LT(length(getPoint(fit_mesh.view(), moved[i]) - getPoint(view, samples[i])), 3e-5f);
     }
-    for (const Binding& binding : proxy.bindings)
+    for (const Binding& binding : fit_mesh.bindings)
         EXPECT_EQ(binding.weights[0], 1) << "all vertices still have triangles";
 }
 
-TEST(MakeProxy, keepsAFanOfFineNeedlesFromCollapsingIntoOne)
+TEST(MakeFitMesh, keepsAFanOfFineNeedlesFromCollapsingIntoOne)
 {
     FlatMesh strip; // 1 x 1, cut into 3000 slices
     constexpr uint32_t kSlices = 3000;
@@ -227,13 +227,13 @@ TEST(MakeProxy, keepsAFanOfFineNeedlesFromCollapsingIntoOne)
     for (uint32_t i = 0; i < kSlices * 2; i += 2)
         for (const uint32_t corner : {i, i + 2, i + 3, i, i + 3, i + 1})
             strip.indices.push_back(corner);
-    const Proxy proxy = makeProxy(strip.view());
-    EXPECT_GE(lowestTriangle(proxy), 1e-3);
-    EXPECT_GE(proxy.smooth_count, 500u);
-    EXPECT_NEAR(computeArea(proxy.view()), 1, 1e-3);
+    const FitMesh fit_mesh = makeFitMesh(strip.view());
+    EXPECT_GE(lowestTriangle(fit_mesh), 1e-3);
+    EXPECT_GE(fit_mesh.smooth_count, 500u);
+    EXPECT_NEAR(computeArea(fit_mesh.view()), 1, 1e-3);
 }
 
-TEST(MakeProxy, keepsABladeThatIsAllSlivers)
+TEST(MakeFitMesh, keepsABladeThatIsAllSlivers)
 {
     FlatMesh mesh = square(2);
     const auto first = static_cast<uint32_t>(mesh.positions.size());
@@ -243,22 +243,22 @@ TEST(MakeProxy, keepsABladeThatIsAllSlivers)
         mesh.positions.push_back(p);
     mesh.indices.insert(mesh.indices.end(), {first, first + 1, first + 3, first, first + 3, first + 2});
     const MeshView view = mesh.view();
-    const Proxy proxy = makeProxy(view);
-    EXPECT_EQ(proxy.smooth_count, 8u);
-    EXPECT_EQ(proxy.statistics.loose, 2u);
+    const FitMesh fit_mesh = makeFitMesh(view);
+    EXPECT_EQ(fit_mesh.smooth_count, 8u);
+    EXPECT_EQ(fit_mesh.statistics.loose, 2u);
     const std::vector<SurfaceSample> samples = makeSamples(view, 4);
     std::vector<Moments> values;
     for (const SurfaceSample& sample : samples)
         values.push_back({sample.triangle < 8 ? 1.0f : 4.0f + getPoint(view, sample).z, {}});
-    const FitResult fit = fitVertices(proxy, mapSamplesToProxy(proxy, view, samples), values);
-    const std::vector<Moments> source = mapValuesToSource(proxy, fit.moments, view.normals);
+    const FitResult fit = fitVertices(fit_mesh, mapSamplesToFitMesh(fit_mesh, view, samples), values);
+    const std::vector<Moments> source = mapValuesToSource(fit_mesh, fit.moments, view.normals);
     for (uint32_t v = 0; v < first; ++v)
         EXPECT_NEAR(source[v].m0, 1, 1e-5f);
     for (uint32_t v = first; v < view.positions.size(); ++v)
         EXPECT_NEAR(source[v].m0, 4 + view.positions[v].z, 0.01f);
 }
 
-TEST(MakeProxy, bindsEveryVertexToWhereItIs)
+TEST(MakeFitMesh, bindsEveryVertexToWhereItIs)
 {
     mesh::SourceMesh rock = shapes::rock(6, 0.4f);
     std::mt19937 random(3);
@@ -274,56 +274,56 @@ TEST(MakeProxy, bindsEveryVertexToWhereItIs)
                                                  static_cast<uint32_t>(rock.positions.size() - 1)});
     }
     const MeshView view{rock.positions, rock.normals, rock.indices};
-    const Proxy proxy = makeProxy(view);
-    EXPECT_GE(lowestTriangle(proxy), 1e-3);
-    for (size_t v = 0; v < proxy.bindings.size(); ++v)
+    const FitMesh fit_mesh = makeFitMesh(view);
+    EXPECT_GE(lowestTriangle(fit_mesh), 1e-3);
+    for (size_t v = 0; v < fit_mesh.bindings.size(); ++v)
     {
         Float3 point;
         for (size_t k = 0; k < 3; ++k)
-            point += proxy.positions[proxy.bindings[v].vertices[k]] * proxy.bindings[v].weights[k];
+            point += fit_mesh.positions[fit_mesh.bindings[v].vertices[k]] * fit_mesh.bindings[v].weights[k];
         EXPECT_LT(length(point - rock.positions[v]), 0.01f);
     }
 }
 
-TEST(MakeProxy, givesUnreferencedVerticesTheNearestValue)
+TEST(MakeFitMesh, givesUnreferencedVerticesTheNearestValue)
 {
     FlatMesh mesh = square(4);
     mesh.positions.push_back({0.3f, 0.4f, 7});
     mesh.positions.push_back({0.3f, 0.4f, -7});
     const MeshView view = mesh.view();
-    const Proxy proxy = makeProxy(view);
-    EXPECT_EQ(proxy.statistics.nearest, 2u);
+    const FitMesh fit_mesh = makeFitMesh(view);
+    EXPECT_EQ(fit_mesh.statistics.nearest, 2u);
     std::vector<Moments> values;
-    for (const Float3 p : proxy.positions)
+    for (const Float3 p : fit_mesh.positions)
         values.push_back({p.x + 2 * p.y, {}});
-    const std::vector<Moments> source = mapValuesToSource(proxy, values, view.normals);
+    const std::vector<Moments> source = mapValuesToSource(fit_mesh, values, view.normals);
     EXPECT_NEAR(source[25].m0, 1.1f, 1e-6f);
     EXPECT_NEAR(source[26].m0, 1.1f, 1e-6f);
 }
 
-TEST(MakeProxy, isEmptyForMeshesWithoutTriangles)
+TEST(MakeFitMesh, isEmptyForMeshesWithoutTriangles)
 {
     FlatMesh mesh{{{1, 2, 3}}, {}};
     const MeshView view = mesh.view();
-    const Proxy proxy = makeProxy(view);
-    EXPECT_TRUE(proxy.positions.empty());
-    const FitResult fit = fitVertices(proxy, {}, {});
-    const std::vector<Moments> source = mapValuesToSource(proxy, fit.moments, view.normals);
+    const FitMesh fit_mesh = makeFitMesh(view);
+    EXPECT_TRUE(fit_mesh.positions.empty());
+    const FitResult fit = fitVertices(fit_mesh, {}, {});
+    const std::vector<Moments> source = mapValuesToSource(fit_mesh, fit.moments, view.normals);
     EXPECT_EQ(source[0].m1, kUp * std::numbers::pi_v<float>);
 }
 
-TEST(MakeProxy, takesAnyTriangles)
+TEST(MakeFitMesh, takesAnyTriangles)
 {
     mesh::SourceMesh tangle = shapes::tangle(60, 400), soup = shapes::soup(100),
                      moebius = shapes::moebius(30, 3);
     for (mesh::SourceMesh* mesh : {&tangle, &soup, &moebius})
     {
         mesh->normals.resize(mesh->vertexCount(), kUp);
-        const Proxy proxy = makeProxy(makeMeshView(*mesh));
+        const FitMesh fit_mesh = makeFitMesh(makeMeshView(*mesh));
         const std::vector<SurfaceSample> samples =
-            mapSamplesToProxy(proxy, makeMeshView(*mesh), makeSamples(makeMeshView(*mesh), 1));
+            mapSamplesToFitMesh(fit_mesh, makeMeshView(*mesh), makeSamples(makeMeshView(*mesh), 1));
         std::vector<Moments> values(samples.size(), Moments{3, {}});
-        for (const Moments& m : fitVertices(proxy, samples, values).moments)
+        for (const Moments& m : fitVertices(fit_mesh, samples, values).moments)
             EXPECT_NEAR(m.m0, 3, 1e-5f);
     }
 }

@@ -1,5 +1,5 @@
-// Proxy: the mesh that visibility is fitted on, with duplicate vertices welded and sliver triangles removed.
-// See cook/visibility/README.md, "The proxy".
+// FitMesh: the mesh that visibility is fitted on, with duplicate vertices welded and sliver triangles
+// removed. See cook/visibility/README.md, "The fit mesh".
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -14,7 +14,7 @@
 namespace hearth::visibility
 {
 
-struct ProxySettings
+struct FitMeshSettings
 {
     /// Maximum distance of positions that are welded, relative to the larger of the mesh's longest side and
     /// its largest absolute coordinate: two steps of a float there. Import's quantization grids are coarser,
@@ -28,15 +28,15 @@ struct ProxySettings
     double thinness = 1e-3;
 };
 
-/// Weighted sum of three proxy vertices that a source vertex maps to. A source vertex that was merged into
-/// one proxy vertex has it three times, with the weights (1, 0, 0): its value is copied bit for bit.
+/// Weighted sum of three fit mesh vertices that a source vertex maps to. A source vertex that was merged into
+/// one fit mesh vertex has it three times, with the weights (1, 0, 0): its value is copied bit for bit.
 struct Binding
 {
     std::array<uint32_t, 3> vertices{kInvalidIndex, kInvalidIndex, kInvalidIndex};
     std::array<float, 3> weights{1, 0, 0};
 };
 
-struct ProxyStatistics
+struct FitMeshStatistics
 {
     uint32_t source_vertices = 0;
     uint32_t welded = 0; ///< source vertices merged into an earlier one
@@ -46,39 +46,39 @@ struct ProxyStatistics
     uint32_t nearest = 0;
 };
 
-struct Proxy
+struct FitMesh
 {
     std::vector<Float3> positions;
     std::vector<Float3> normals;
     /// The first `smooth_count` triangles, then loose triangles, which may name a vertex twice.
     std::vector<uint32_t> indices;
     size_t smooth_count = 0;               ///< triangles that the regulariser covers
-    double thinness = 0;                   ///< setting that the proxy was made with
+    double thinness = 0;                   ///< setting that the fit mesh was made with
     std::vector<mesh::InteriorEdge> edges; ///< interior edges of the smooth triangles
-    std::vector<Binding> bindings;         ///< for each source vertex; kInvalidIndex if the proxy is empty
-    /// For each source triangle, the proxy triangle with the same three vertices, or kInvalidIndex.
+    std::vector<Binding> bindings;         ///< for each source vertex; kInvalidIndex if the fit mesh is empty
+    /// For each source triangle, the fit mesh triangle with the same three vertices, or kInvalidIndex.
     std::vector<uint32_t> triangle_of_source;
-    ProxyStatistics statistics;
+    FitMeshStatistics statistics;
 
     MeshView view() const { return {positions, normals, indices}; }
 };
 
-/// Return for each vertex the first vertex that the proxy merges it with, by position and normal alone; the
-/// vertex itself if there is none.
-std::vector<uint32_t> findMergedVertices(const MeshView& source, const ProxySettings& settings = {});
+/// Return for each vertex the first vertex that the fit mesh merges it with, by position and normal alone;
+/// the vertex itself if there is none.
+std::vector<uint32_t> findMergedVertices(const MeshView& source, const FitMeshSettings& settings = {});
 
-/// Build the proxy. Deterministic. Time O(n log n).
-Proxy makeProxy(const MeshView& source, const ProxySettings& settings = {});
+/// Build the fit mesh. Deterministic. Time O(n log n).
+FitMesh makeFitMesh(const MeshView& source, const FitMeshSettings& settings = {});
 
-/// Map samples of the source's triangles to the proxy: with the same weights on triangles that still exist,
-/// else to the nearest point that faces the same way. The triangle is kInvalidIndex if no such point is near:
-/// a sliver can face anywhere, and its visibility is then unrelated to the surface's.
-std::vector<SurfaceSample> mapSamplesToProxy(const Proxy& proxy, const MeshView& source,
-                                             std::span<const SurfaceSample> samples);
+/// Map samples of the source's triangles to the fit mesh: with the same weights on triangles that still
+/// exist, else to the nearest point that faces the same way. The triangle is kInvalidIndex if no such point
+/// is near: a sliver can face anywhere, and its visibility is then unrelated to the surface's.
+std::vector<SurfaceSample> mapSamplesToFitMesh(const FitMesh& fit_mesh, const MeshView& source,
+                                               std::span<const SurfaceSample> samples);
 
-/// Map values of the proxy's vertices back to the source's vertices. If the proxy is empty, return the open
-/// hemisphere about each vertex normal.
-std::vector<Moments> mapValuesToSource(const Proxy& proxy, std::span<const Moments> values,
+/// Map values of the fit mesh's vertices back to the source's vertices. If the fit mesh is empty, return the
+/// open hemisphere about each vertex normal.
+std::vector<Moments> mapValuesToSource(const FitMesh& fit_mesh, std::span<const Moments> values,
                                        std::span<const Float3> source_normals);
 
 } // namespace hearth::visibility

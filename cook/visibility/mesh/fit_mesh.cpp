@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "cook/visibility/mesh/proxy.h"
+#include "cook/visibility/mesh/fit_mesh.h"
 
 #include "cook/mesh/closest_point.h"
 #include "cook/visibility/mesh/moment_clamp.h"
@@ -47,7 +47,7 @@ struct WeldedSource
     std::vector<uint32_t> indices;
 };
 
-WeldedSource weld(const MeshView& source, const ProxySettings& settings)
+WeldedSource weld(const MeshView& source, const FitMeshSettings& settings)
 {
     WeldedSource welded;
     welded.first = findMergedVertices(source, settings);
@@ -55,15 +55,6 @@ WeldedSource weld(const MeshView& source, const ProxySettings& settings)
     for (const uint32_t vertex : source.indices)
         welded.indices.push_back(welded.first[vertex]);
     return welded;
-}
-
-double longestEdge(const MeshView& mesh, size_t triangle)
-{
-    double longest = 0;
-    for (size_t k = 0; k < 3; ++k)
-        longest = std::max<double>(longest, length(mesh.positions[mesh.indices[triangle * 3 + k]] -
-                                                   mesh.positions[mesh.indices[triangle * 3 + (k + 1) % 3]]));
-    return longest;
 }
 
 bool hasArea(const MeshView& mesh, size_t triangle)
@@ -74,12 +65,12 @@ bool hasArea(const MeshView& mesh, size_t triangle)
                         widen(p[corner[2]]) - widen(p[corner[0]]))) > 0;
 }
 
-/// Builds a proxy from cleaned triangles. Vertex indices are the source's until compact().
-class ProxyBuilder
+/// Builds a fit mesh from cleaned triangles. Vertex indices are the source's until compact().
+class FitMeshBuilder
 {
 public:
-    ProxyBuilder(const MeshView& source, const WeldedSource& welded, mesh::CleanTriangles clean,
-                 double thinness)
+    FitMeshBuilder(const MeshView& source, const WeldedSource& welded, mesh::CleanTriangles clean,
+                   double thinness)
         : source_(source),
           welded_(welded),
           clean_(std::move(clean)),
@@ -87,21 +78,21 @@ public:
           used_(source.positions.size(), false),
           bindings_(source.positions.size())
     {
-        proxy_.smooth_count = clean_.indices.size() / 3;
-        proxy_.thinness = thinness;
-        proxy_.statistics.thin = clean_.statistics;
+        fit_mesh_.smooth_count = clean_.indices.size() / 3;
+        fit_mesh_.thinness = thinness;
+        fit_mesh_.statistics.thin = clean_.statistics;
         for (const uint32_t vertex : clean_.indices)
             used_[vertex] = true;
     }
 
-    Proxy build()
+    FitMesh build()
     {
         const std::vector<double> reach = longestRemovedEdges();
         bindNearby(reach);
         keepLooseTriangles();
         bindRemaining();
         compact();
-        return std::move(proxy_);
+        return std::move(fit_mesh_);
     }
 
 private:
@@ -116,7 +107,7 @@ private:
         {
             if (clean_.remaining_of_source[t] != kInvalidIndex || !hasArea(source_, t))
                 continue;
-            const double longest = longestEdge(source_, t);
+            const double longest = mesh::longestEdge(source_, t);
             for (size_t k = 0; k < 3; ++k)
             {
                 double& vertex_reach = reach[mergedVertex(source_.indices[t * 3 + k])];
@@ -136,7 +127,7 @@ private:
             if (!(reach[v] > 0) || used_[v])
                 continue;
             if (!surface)
-                surface.emplace(smooth, proxy_.smooth_count);
+                surface.emplace(smooth, fit_mesh_.smooth_count);
             bind(v, *surface, reach[v] * thinness_ * kMaxBindDistance, smooth);
         }
     }
@@ -173,7 +164,7 @@ private:
     /// Keep removed triangles that have a vertex which is neither on another triangle nor bound to one.
     void keepLooseTriangles()
     {
-        proxy_.triangle_of_source = clean_.remaining_of_source;
+        fit_mesh_.triangle_of_source = clean_.remaining_of_source;
         std::vector<bool> named = used_;
         for (size_t t = 0; t < source_.triangleCount(); ++t)
         {
@@ -188,8 +179,8 @@ private:
             }
             if (!loose)
                 continue;
-            proxy_.triangle_of_source[t] = static_cast<uint32_t>(clean_.indices.size() / 3);
-            ++proxy_.statistics.loose;
+            fit_mesh_.triangle_of_source[t] = static_cast<uint32_t>(clean_.indices.size() / 3);
+            ++fit_mesh_.statistics.loose;
             for (const uint32_t corner : corners)
             {
                 named[corner] = true;
@@ -206,21 +197,21 @@ private:
         for (uint32_t v = 0; v < used_.size(); ++v)
             if (used_[v])
             {
-                number[v] = static_cast<uint32_t>(proxy_.positions.size());
-                proxy_.positions.push_back(source_.positions[v]);
-                proxy_.normals.push_back(source_.normals[v]);
+                number[v] = static_cast<uint32_t>(fit_mesh_.positions.size());
+                fit_mesh_.positions.push_back(source_.positions[v]);
+                fit_mesh_.normals.push_back(source_.normals[v]);
             }
         for (const uint32_t vertex : clean_.indices)
-            proxy_.indices.push_back(number[vertex]);
-        const std::span<const uint32_t> smooth(proxy_.indices.data(), proxy_.smooth_count * 3);
-        proxy_.edges = mesh::findInteriorEdges(smooth, proxy_.positions.size());
-        proxy_.bindings.resize(used_.size());
-        proxy_.statistics.source_vertices = static_cast<uint32_t>(used_.size());
+            fit_mesh_.indices.push_back(number[vertex]);
+        const std::span<const uint32_t> smooth(fit_mesh_.indices.data(), fit_mesh_.smooth_count * 3);
+        fit_mesh_.edges = mesh::findInteriorEdges(smooth, fit_mesh_.positions.size());
+        fit_mesh_.bindings.resize(used_.size());
+        fit_mesh_.statistics.source_vertices = static_cast<uint32_t>(used_.size());
         for (uint32_t v = 0; v < used_.size(); ++v)
         {
             const uint32_t merged = mergedVertex(v);
-            proxy_.statistics.welded += welded_.first[v] != v;
-            Binding& binding = proxy_.bindings[v];
+            fit_mesh_.statistics.welded += welded_.first[v] != v;
+            Binding& binding = fit_mesh_.bindings[v];
             if (used_[merged])
                 binding.vertices.fill(number[merged]);
             else if (bindings_[merged].vertices[0] != kInvalidIndex)
@@ -228,7 +219,7 @@ private:
                 for (size_t k = 0; k < 3; ++k)
                     binding.vertices[k] = number[bindings_[merged].vertices[k]];
                 binding.weights = bindings_[merged].weights;
-                ++proxy_.statistics.nearest;
+                ++fit_mesh_.statistics.nearest;
             }
         }
     }
@@ -237,32 +228,32 @@ private:
     const WeldedSource& welded_;
     mesh::CleanTriangles clean_;
     double thinness_;
-    std::vector<bool> used_; ///< by a triangle of the proxy
+    std::vector<bool> used_; ///< by a triangle of the fit mesh
     std::vector<Binding> bindings_;
-    Proxy proxy_;
+    FitMesh fit_mesh_;
 };
 
 } // namespace
 
-std::vector<uint32_t> findMergedVertices(const MeshView& source, const ProxySettings& settings)
+std::vector<uint32_t> findMergedVertices(const MeshView& source, const FitMeshSettings& settings)
 {
     const double tolerance = positionScale(source.positions) * settings.position_tolerance;
     return weldVertices(source.positions, source.normals, tolerance, settings.normal_tolerance);
 }
 
-Proxy makeProxy(const MeshView& source, const ProxySettings& settings)
+FitMesh makeFitMesh(const MeshView& source, const FitMeshSettings& settings)
 {
     HEARTH_ASSERT(source.normals.size() == source.positions.size());
     const WeldedSource welded = weld(source, settings);
     mesh::CleanTriangles clean =
         mesh::removeThinTriangles(source.positions, welded.indices, settings.thinness);
-    return ProxyBuilder(source, welded, std::move(clean), settings.thinness).build();
+    return FitMeshBuilder(source, welded, std::move(clean), settings.thinness).build();
 }
 
 namespace
 {
 
-/// Return a sample of a proxy triangle that has the corners `original_corners`, perhaps in another order.
+/// Return a sample of a fit mesh triangle that has the corners `original_corners`, perhaps in another order.
 SurfaceSample withReorderedCorners(const SurfaceSample& sample,
                                    const std::array<uint32_t, 3>& original_corners, uint32_t triangle,
                                    const uint32_t* corners)
@@ -285,29 +276,30 @@ SurfaceSample withReorderedCorners(const SurfaceSample& sample,
 
 } // namespace
 
-std::vector<SurfaceSample> mapSamplesToProxy(const Proxy& proxy, const MeshView& source,
-                                             std::span<const SurfaceSample> samples)
+std::vector<SurfaceSample> mapSamplesToFitMesh(const FitMesh& fit_mesh, const MeshView& source,
+                                               std::span<const SurfaceSample> samples)
 {
     const auto isRemoved = [&](const SurfaceSample& sample)
-    { return proxy.triangle_of_source[sample.triangle] == kInvalidIndex; };
+    { return fit_mesh.triangle_of_source[sample.triangle] == kInvalidIndex; };
     std::optional<mesh::ClosestPoint> surface;
     if (std::any_of(samples.begin(), samples.end(), isRemoved))
-        surface.emplace(proxy.view(), proxy.smooth_count);
+        surface.emplace(fit_mesh.view(), fit_mesh.smooth_count);
     std::vector<SurfaceSample> result(samples.size());
     const auto mapSample = [&](const SurfaceSample& sample, uint32_t hint)
     {
         const uint32_t* corners = source.indices.data() + size_t{sample.triangle} * 3;
-        if (const uint32_t triangle = proxy.triangle_of_source[sample.triangle]; triangle != kInvalidIndex)
+        if (const uint32_t triangle = fit_mesh.triangle_of_source[sample.triangle]; triangle != kInvalidIndex)
         {
             std::array<uint32_t, 3> original_corners;
             for (size_t k = 0; k < 3; ++k)
-                original_corners[k] = proxy.bindings[corners[k]].vertices[0];
+                original_corners[k] = fit_mesh.bindings[corners[k]].vertices[0];
             return withReorderedCorners(sample, original_corners, triangle,
-                                        proxy.indices.data() + size_t{triangle} * 3);
+                                        fit_mesh.indices.data() + size_t{triangle} * 3);
         }
         const Float3 a = source.positions[corners[0]];
         const Float3 ab = source.positions[corners[1]] - a, ac = source.positions[corners[2]] - a;
-        const double reach = longestEdge(source, sample.triangle) * proxy.thinness * kMaxBindDistance;
+        const double reach =
+            mesh::longestEdge(source, sample.triangle) * fit_mesh.thinness * kMaxBindDistance;
         const mesh::ClosestPoint::Hit found =
             surface->find(a + ab * sample.u + ac * sample.v, cross(ab, ac), reach * reach, hint);
         return SurfaceSample{found.triangle, found.u, found.v, sample.area, sample.weight};
@@ -327,14 +319,15 @@ std::vector<SurfaceSample> mapSamplesToProxy(const Proxy& proxy, const MeshView&
     return result;
 }
 
-std::vector<Moments> mapValuesToSource(const Proxy& proxy, std::span<const Moments> values,
+std::vector<Moments> mapValuesToSource(const FitMesh& fit_mesh, std::span<const Moments> values,
                                        std::span<const Float3> source_normals)
 {
-    HEARTH_ASSERT(values.size() == proxy.positions.size() && source_normals.size() == proxy.bindings.size());
-    std::vector<Moments> result(proxy.bindings.size());
+    HEARTH_ASSERT(values.size() == fit_mesh.positions.size() &&
+                  source_normals.size() == fit_mesh.bindings.size());
+    std::vector<Moments> result(fit_mesh.bindings.size());
     for (size_t v = 0; v < result.size(); ++v)
     {
-        const Binding& binding = proxy.bindings[v];
+        const Binding& binding = fit_mesh.bindings[v];
         if (binding.vertices[0] == kInvalidIndex)
         {
             result[v] = openHemisphere(source_normals[v]);
