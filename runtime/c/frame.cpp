@@ -65,6 +65,9 @@ Status checkPost(const gpu::Renderer& renderer, const hearth_frame& frame)
 Status check(const hearth_renderer& renderer, const hearth_frame& frame)
 {
     HEARTH_TRY(check(frame.camera));
+    constexpr float kMaxShift = 1024;
+    if (!(std::abs(frame.shift[0]) <= kMaxShift && std::abs(frame.shift[1]) <= kMaxShift))
+        return usage("shift is not from -1024 to 1024");
     if (!(frame.error_pixels >= 0) || !std::isfinite(frame.error_pixels))
         return usage("error_pixels is not 0 or more");
     if (!(frame.depth_scale > 0) || !std::isfinite(frame.depth_scale))
@@ -211,7 +214,8 @@ Result<shared::FrameView> makeView(const hearth_scene& scene, const gpu::FrameTa
                                 .target = toFloat3(frame.camera.target),
                                 .up = toFloat3(frame.camera.up),
                                 .y_fov_rad = frame.camera.y_fov_rad,
-                                .z_near = frame.camera.z_near};
+                                .z_near = frame.camera.z_near,
+                                .shift = {frame.shift[0], frame.shift[1]}};
     const uint32_t off = frame.occlusion == HEARTH_OCCLUSION_OFF ? uint32_t{HEARTH_CULL_OCCLUSION} : 0;
     shared::FrameView view =
         shared::makeFrameView(camera, targets.extent().width, targets.extent().height, frame.error_pixels,

@@ -817,6 +817,10 @@ typedef struct hearth_frame
     uint32_t reserved; /* 0 */
     /* from this frame on, until it is set anew; before `lights`. NULL: no change. An error where the sky is an image */
     const hearth_daylight* daylight;
+    /* Off-centre images (eyes of a headset, parts of a large image, jitter): place of the camera's axis in the
+     * image, from its middle, in halves of its width to the right and of its height upwards; -1024 to 1024.
+     * Moved by p pixels: 2 * p / width. */
+    float shift[2];
 } hearth_frame;
 
 #define HEARTH_FRAME_INIT                                                                                    \
@@ -825,7 +829,7 @@ typedef struct hearth_frame
             NULL, 0, 0, NULL, HEARTH_VIEW_FINAL, 1, HEARTH_SHADE_AUTOMATIC, 0, NULL, VK_NULL_HANDLE, NULL,   \
             0, HEARTH_AMBIENT_OCCLUSION_EXACT, HEARTH_SPECULAR_OCCLUSION_FIT, 0, NULL, NULL, 0, 0, 0, 0, 0,  \
             0.18f, 1, 0, {1, 1, 1}, 0, 0, HEARTH_BLOOM_MIX, HEARTH_LIGHTS_PRACTICAL, HEARTH_LIGHT_LISTS_GPU, \
-            NULL, 0, 0, NULL                                                                                 \
+            NULL, 0, 0, NULL, {0, 0}                                                                         \
     }
 
 /* ---- Tables of a pack (1.6), on any thread ----

@@ -38,9 +38,9 @@ FrameView makeFrameView(const Camera& camera, uint32_t width, uint32_t height, f
     const Float3 up = cross(right, forward);
     const float focal = 1.0f / std::tan(0.5f * camera.y_fov_rad);
     const float aspect = static_cast<float>(width) / static_cast<float>(height);
-    const Float3 x = right * (focal / aspect);
-    const Float3 y = up * -focal; // Vulkan's clip space has y down
     const Float3 w = forward;
+    const Float3 x = right * (focal / aspect) + w * camera.shift.x;
+    const Float3 y = (up * focal + w * camera.shift.y) * -1.0f; // Vulkan's clip space has y down
 
     FrameView view{};
     view.clip_x = row(x);
@@ -54,8 +54,10 @@ FrameView makeFrameView(const Camera& camera, uint32_t width, uint32_t height, f
     view.eye = camera.position;
     view.z_near = camera.z_near;
     view.lod_scale = 0.5f * static_cast<float>(height) * focal;
-    constexpr float kPixelBeyond = 0.999f; // images may be drawn moved by a part of a pixel
-    view.corner_cosine = kPixelBeyond / std::sqrt(1 + (1 + aspect * aspect) / (focal * focal));
+    constexpr float kRounded = 0.999f;
+    const float corner_x = (1 + std::abs(camera.shift.x)) * aspect / focal;
+    const float corner_y = (1 + std::abs(camera.shift.y)) / focal;
+    view.corner_cosine = kRounded / std::sqrt(1 + corner_x * corner_x + corner_y * corner_y);
     // an error of exactly 0 never exceeds a threshold of 0: only a negative threshold refines planes to their
     // source triangles
     view.threshold = error_pixels > 0 ? error_pixels : -1.0f;

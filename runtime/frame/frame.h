@@ -20,6 +20,9 @@ struct Camera
     Float3 up{0, 1, 0};
     float y_fov_rad = 0.8f; ///< full vertical angle
     float z_near = 0.01f;   ///< metres
+    /// Off-centre images: place of the view axis in the image, from its middle, in halves of its width to the
+    /// right and of its height upwards.
+    Float2 shift{};
 };
 
 /// Return the constants of a frame. `error_pixels` is the projected LOD error that need not be refined; 0

@@ -112,6 +112,19 @@ Sphere makeSliceSphere(Double3 eye, Double3 forward, double near, double far, do
     return {narrow(eye + forward * center), static_cast<float>(radius)};
 }
 
+/// Return how much farther from the view's axis the far side of an off-centre image is than that of a centred
+/// one. Shifts of less than four pixels do not count, and others are rounded: the maps of an image that jitters
+/// shall stay as they are.
+/// row     of FrameView across the image
+/// pixels  of the image along it
+double widening(const Float4& row, const Float4& along, float pixels)
+{
+    constexpr double kPixels = 4, kSteps = 64;
+    const double shift = std::abs(double{dot(row3(row), row3(along))});
+    const double counted = std::max(0.0, shift - 2 * kPixels / double{pixels});
+    return 1 + std::ceil(counted * kSteps) / kSteps;
+}
+
 } // namespace
 
 ShadowLight makeSunShadow(Float3 direction, const Box3& scene)
@@ -231,8 +244,10 @@ void computeSplitSpheres(const FrameView& view, const SplitRange& range, std::sp
 {
     HEARTH_ASSERT(range.near > 0 && range.far > range.near && range.blend >= 0 && range.blend <= 1);
     // from the size, not from the clip rows, whose lengths round differently for each direction
-    const double up_tangent = 0.5 * double{view.height} / double{view.lod_scale};
-    const double side_tangent = 0.5 * double{view.width} / double{view.lod_scale};
+    const double up_tangent =
+        0.5 * double{view.height} / double{view.lod_scale} * widening(view.clip_y, view.clip_w, view.height);
+    const double side_tangent =
+        0.5 * double{view.width} / double{view.lod_scale} * widening(view.clip_x, view.clip_w, view.width);
     const double corner_tangent2 = up_tangent * up_tangent + side_tangent * side_tangent;
     const Double3 eye = widen(view.eye);
     const Double3 forward = widen(row3(view.clip_w));

@@ -39,17 +39,13 @@ shared::Camera shiftCamera(const shared::Camera& camera, uint32_t frame, uint32_
 {
     if (frames == 1)
         return camera;
-    const shared::FrameView view = shared::makeFrameView(camera, width, height, 0, 0);
-    const Float3 x = shared::row3(view.clip_x), y = shared::row3(view.clip_y);
     // places on a square grid, from the middle of a sample: -1/4 and 1/4 of four frames
     const auto side = static_cast<uint32_t>(std::lround(std::sqrt(frames)));
     const auto place = [&](uint32_t index)
     { return (static_cast<float>(index) + 0.5f) / static_cast<float>(side) - 0.5f; };
-    // a sample is 2 / width wide in clip space, and clip_x is 1 / tan of half the field of view long
-    const Float3 right = x * (2 * place(frame % side) / (static_cast<float>(width) * dot(x, x)));
-    const Float3 down = y * (2 * place(frame / side) / (static_cast<float>(height) * dot(y, y)));
     shared::Camera shifted = camera;
-    shifted.target = camera.position + shared::row3(view.clip_w) + right + down;
+    shifted.shift.x += 2 * place(frame % side) / static_cast<float>(width);
+    shifted.shift.y += 2 * place(frame / side) / static_cast<float>(height);
     return shifted;
 }
 

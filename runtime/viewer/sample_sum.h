@@ -21,7 +21,7 @@ struct SampleGrid
 /// samples  1, 4, 16 or 64
 SampleGrid makeSampleGrid(uint32_t samples);
 
-/// Return the camera of frame `frame` of `frames` for one image: turned by a part of a sample, so that the
+/// Return the camera of frame `frame` of `frames` for one image: shifted by a part of a sample, so that the
 /// samples of all frames lie evenly in each pixel. One frame's camera stays as it is.
 /// width, height  of a frame, in samples
 shared::Camera shiftCamera(const shared::Camera& camera, uint32_t frame, uint32_t frames, uint32_t width,

@@ -11,6 +11,7 @@
 
 layout(set = kSetScene, binding = kSceneFrame, std140) uniform Frame { FrameView view; };
 #include "runtime/shaders/scene/light_block.glsl"
+#include "runtime/shaders/scene/pixel_ray.glsl"
 #include "runtime/shaders/shade/sky.glsl"
 
 layout(constant_id = kConstantComparesMaterial) const bool kComparesMaterial = false;
@@ -25,11 +26,7 @@ void main()
 {
     if (kComparesMaterial && loadVisibility() != kVisibilitySky)
         discard;
-    vec2 ndc = gl_FragCoord.xy * 2.0 / vec2(view.width, view.height) - 1.0;
-    // the rows are orthogonal, so this is the direction with clip coordinates (ndc, 1)
-    vec3 x = view.clip_x.xyz;
-    vec3 y = view.clip_y.xyz;
-    vec3 direction = normalize(view.clip_w.xyz + x * (ndc.x / dot(x, x)) + y * (ndc.y / dot(y, y)));
+    vec3 direction = normalize(pixelRay(gl_FragCoord.xy));
     vec3 color = push.debug_view == kViewFinal ? shadedColor(skyBackground(direction)) : linearFromSrgb(vec3(0.08));
     out_color = vec4(color, 1.0);
 #ifdef HEARTH_STORES_SURFACES

@@ -6,6 +6,7 @@
 #extension GL_GOOGLE_include_directive : require
 #include "formats/gpu_shared/push_constants.h"
 #include "runtime/shaders/scene/bricks.glsl"
+#include "runtime/shaders/scene/pixel_ray.glsl"
 #include "runtime/shaders/shade/tonemap.glsl"
 
 layout(push_constant) uniform Push { ShadingPush push; };
@@ -27,10 +28,7 @@ float edgeWeight(vec3 place, uint face, float pixel_voxels)
 
 void main()
 {
-    vec2 ndc = gl_FragCoord.xy * 2.0 / vec2(view.width, view.height) - 1.0;
-    vec3 x = view.clip_x.xyz;
-    vec3 y = view.clip_y.xyz;
-    vec3 direction = normalize(view.clip_w.xyz + x * (ndc.x / dot(x, x)) + y * (ndc.y / dot(y, y)));
+    vec3 direction = normalize(pixelRay(gl_FragCoord.xy));
     BrickGrid grid = brick_view.grid;
     BrickRay ray = brickMarch(grid, brickRay(grid, view.eye, direction, kBrickInfinity));
     bool lit = push.debug_view == kViewBrickLighting;

@@ -27,6 +27,9 @@ TEST_F(CApiTest, handsOnAllThatAFrameSays)
     frame.moves = &move;
     frame.move_count = 1;
     frame.shaded_area = HEARTH_SHADE_TILES;
+    frame.shift[0] = 0.25f;
+    frame.shift[1] = -0.5f;
+    shift_ = {0.25f, -0.5f};
     moved_ = Affine3{{{1, 0, 0, 0.5f}, {0, 0, -1, 0.25f}, {0, 1, 0, -0.5f}}};
     DrawOptions options{.error_pixels = 0.25f,
                         .flags = shared::kCullFrustum | shared::kCullCone,

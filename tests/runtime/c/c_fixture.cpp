@@ -137,7 +137,9 @@ Image CApiTest::drawInCpp(DrawOptions options)
         moves.push_back(*move);
     }
     options.moves = moves;
-    return draw(*scene, kCamera, options);
+    shared::Camera camera = kCamera;
+    camera.shift = shift_;
+    return draw(*scene, camera, options);
 }
 
 void CApiTest::expectEqual(const c_image& c, const Image& cpp) const

@@ -68,6 +68,7 @@ protected:
     AlignedBytes bytes_;
     bool in_parts_ = false;        ///< drawInC records frames in parts
     std::optional<Affine3> moved_; ///< of instance 0, in drawInCpp
+    Float2 shift_{};               ///< of the camera, in drawInCpp
     gpu::ShadowOptions shadows_;   ///< in drawInCpp
     hearth_pack* pack_ = nullptr;
     c_caller* caller_ = nullptr;

@@ -274,6 +274,7 @@ TEST_F(CFrameRulesTest, framesThatBreakRulesAreRefused)
     EXPECT_THAT(refused([](F& f) { f.struct_size = 4; }), HasSubstr("frame has a struct_size of 4"));
     EXPECT_THAT(refused([](F& f) { f.camera.position[1] = kNan; }), HasSubstr("not finite"));
     EXPECT_THAT(refused([](F& f) { f.camera.y_fov_rad = 3.2f; }), HasSubstr("y_fov_rad"));
+    EXPECT_THAT(refused([](F& f) { f.shift[1] = std::nanf(""); }), HasSubstr("shift"));
     EXPECT_THAT(refused([](F& f) { f.camera.z_near = 0; }), HasSubstr("z_near"));
     EXPECT_THAT(refused([](F& f) { f.error_pixels = -1; }), HasSubstr("error_pixels"));
     EXPECT_THAT(refused([](F& f) { f.depth_scale = kNan; }), HasSubstr("depth_scale"));

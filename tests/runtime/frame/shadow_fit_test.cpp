@@ -126,7 +126,9 @@ TEST(SplitSpheres, holdTheViewAndKeepTheirRadii)
     std::array<Sphere, 4> first{};
     for (int run = 0; run < 50; ++run)
     {
-        Camera camera{.position = randomUnit(random) * 100};
+        // an image that jitters by a pixel
+        Camera camera{.position = randomUnit(random) * 100,
+                      .shift = {between(random, -1, 1) / 800, between(random, -1, 1) / 500}};
         camera.target = camera.position + randomUnit(random);
         std::array<Sphere, 4> spheres{};
         const FrameView view = makeFrameView(camera, 1600, 1000, 1, 1);
@@ -145,6 +147,33 @@ TEST(SplitSpheres, holdTheViewAndKeepTheirRadii)
             const float y = between(random, -1, 1) * w / length(row3(view.clip_y));
             const Float3 point = view.eye + row3(view.clip_w) * w + normalizeOr(row3(view.clip_x), {}) * x +
                                  normalizeOr(row3(view.clip_y), {}) * y;
+            EXPECT_TRUE(std::any_of(spheres.begin(), spheres.end(),
+                                    [&](const Sphere& s)
+                                    { return length(point - s.center) <= s.radius * 1.0001f; }));
+        }
+    }
+}
+
+TEST(SplitSpheres, holdViewsThatAreOffCentre)
+{
+    std::mt19937 random(6);
+    for (int run = 0; run < 50; ++run)
+    {
+        Camera camera{.position = randomUnit(random) * 100,
+                      .shift = {between(random, -3, 3), between(random, -3, 3)}};
+        const Float3 forward = randomUnit(random);
+        camera.target = camera.position + forward;
+        std::array<Sphere, 4> spheres{};
+        const FrameView view = makeFrameView(camera, 1600, 1000, 1, 1);
+        computeSplitSpheres(view, {.near = 0.1f, .far = 120, .blend = 0.8f}, spheres);
+        const Float3 right = normalizeOr(cross(forward, camera.up), {}), up = cross(right, forward);
+        const float focal = 1 / std::tan(camera.y_fov_rad / 2);
+        for (int i = 0; i < 200; ++i)
+        {
+            const float w = 0.1f * std::pow(1200.0f, between(random, 0, 1));
+            const float x = (between(random, -1, 1) - camera.shift.x) * w * 1.6f / focal;
+            const float y = (between(random, -1, 1) - camera.shift.y) * w / focal;
+            const Float3 point = view.eye + forward * w + right * x + up * y;
             EXPECT_TRUE(std::any_of(spheres.begin(), spheres.end(),
                                     [&](const Sphere& s)
                                     { return length(point - s.center) <= s.radius * 1.0001f; }));

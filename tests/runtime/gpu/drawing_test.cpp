@@ -97,6 +97,57 @@ TEST_F(DrawingTest, cullingIsLossless)
     EXPECT_GT(culled, 1000u) << "a culling that culls nothing is not tested";
 }
 
+TEST_F(DrawingTest, cullingOffCentreIsLossless)
+{
+    TestScene test;
+    fillRocks(test, 16, 21);
+    const formats::PackView pack = test.build();
+    const auto scene = upload(pack);
+    for (const Float2 shift : {Float2{0.3f, -0.2f}, {-3, 2}, {0, 7}})
+    {
+        Camera camera = lookingAtOrigin({9, 5, 7});
+        camera.shift = shift;
+        DrawOptions options{.width = 333, .height = 177, .error_pixels = 0, .flags = 0};
+        const Image all = draw(*scene, camera, options);
+        options.flags = kCullEverything;
+        for (int frame = 0; frame < 2; ++frame) // the second by the depth of the first
+        {
+            const Image some = draw(*scene, camera, options);
+            EXPECT_EQ(some.seen(), all.seen());
+            EXPECT_EQ(some.color, all.color);
+        }
+    }
+}
+
+TEST_F(DrawingTest, offCentrePartsMakeUpAnImage)
+{
+    TestScene test;
+    fillRocks(test, 16, 21);
+    const formats::PackView pack = test.build();
+    const auto scene = upload(pack);
+    constexpr uint32_t kSide = 96;
+    const Camera camera = lookingAtOrigin({4, 2, 3});
+    const Image whole = draw(*scene, camera, {.width = 2 * kSide, .height = 2 * kSide});
+    size_t different = 0, shown = 0;
+    for (const uint32_t column : {0u, 1u})
+        for (const uint32_t row : {0u, 1u})
+        {
+            Camera part = camera;
+            part.y_fov_rad = 2 * std::atan(std::tan(camera.y_fov_rad / 2) / 2);
+            part.shift = {column == 0 ? 1.0f : -1.0f, row == 0 ? -1.0f : 1.0f};
+            const Image image = draw(*scene, part, {.width = kSide, .height = kSide});
+            for (uint32_t y = 0; y < kSide; ++y)
+                for (uint32_t x = 0; x < kSide; ++x)
+                {
+                    const size_t in_whole = size_t{row * kSide + y} * 2 * kSide + column * kSide + x;
+                    different += image.color[y * kSide + x] != whole.color[in_whole];
+                    shown += image.visibility[y * kSide + x] != kVisibilitySky;
+                }
+        }
+    EXPECT_GT(shown, kSide * kSide);
+    EXPECT_LT(different, kSide * kSide * 4 / 200) << "edges, where rounding decides";
+}
+
 TEST_F(DrawingTest, cullingIsLosslessWhateverWasDrawnBefore)
 {
     std::mt19937 random(77);

@@ -446,7 +446,7 @@ TEST(SampleSum, keepsEveryCodeOfOneSample)
     EXPECT_EQ(sum.average(), pixels);
 }
 
-/// A point in front of the camera moves by the part of a sample that the frame's camera is turned by.
+/// A point in front of the camera moves by the part of a sample that the frame's image is shifted by.
 TEST(ShiftCamera, spreadsSamplesEvenlyOverAPixel)
 {
     constexpr uint32_t kWidth = 640, kHeight = 360;
@@ -468,7 +468,8 @@ TEST(ShiftCamera, spreadsSamplesEvenlyOverAPixel)
     }
     EXPECT_EQ(places.size(), 16u);
     const shared::Camera still = viewer::shiftCamera(camera, 0, 1, kWidth, kHeight);
-    EXPECT_EQ(still.target, camera.target);
+    EXPECT_EQ(still.shift.x, 0);
+    EXPECT_EQ(still.shift.y, 0);
 }
 
 } // namespace hearth::test
