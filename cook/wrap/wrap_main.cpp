@@ -99,7 +99,8 @@ int program(int argc, char** argv)
     app.addOption("--max-memory", arguments.max_memory_mib, "MiB of memory that the process may use")
         .range(uint64_t{64}, uint64_t{1} << 24, "MIB")
         .showDefault();
-    app.addOption("--max-seconds", arguments.options.max_seconds, "processor time that one mesh may take")
+    app.addOption("--max-seconds", arguments.options.max_seconds,
+                  "processor time that one mesh may take; with --self-intersections, all together")
         .positive("SECONDS")
         .showDefault();
     app.addOption("--stats", arguments.statistics,

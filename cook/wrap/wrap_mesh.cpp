@@ -5,10 +5,12 @@
 #include "cook/mesh/weld.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
 #include <new>
+#include <span>
 
 namespace hearth::wrap
 {
@@ -19,6 +21,35 @@ namespace
 // Rounding rarely breaks a guarantee, and a larger offset then gives other triangles, farther away.
 constexpr int kMaxTries = 4;
 constexpr double kOffsetGrowth = 1.5;
+
+/// Find the triangles that have an area and are no copy of an earlier one: CGAL's trees overflow the stack on
+/// tens of thousands of equal triangles. Copies have the same corners in any order.
+std::vector<uint32_t> findDistinctTriangles(const mesh::SourceMesh& mesh,
+                                            std::span<const uint32_t> position_id_of_vertex)
+{
+    using Key = std::array<uint32_t, 4>; // corners in ascending order, then the triangle
+    std::vector<Key> keys;
+    for (uint32_t triangle = 0; triangle < mesh.triangleCount(); ++triangle)
+    {
+        const uint32_t* const vertices = &mesh.indices[3 * size_t{triangle}];
+        if (mesh::isDegenerate(mesh.positions[vertices[0]], mesh.positions[vertices[1]],
+                               mesh.positions[vertices[2]]))
+            continue;
+        Key& key =
+            keys.emplace_back(Key{position_id_of_vertex[vertices[0]], position_id_of_vertex[vertices[1]],
+                                  position_id_of_vertex[vertices[2]], triangle});
+        std::sort(key.begin(), key.end() - 1);
+    }
+    std::ranges::sort(keys);
+    const auto copies = std::ranges::unique(keys, [](const Key& a, const Key& b)
+                                            { return std::equal(a.begin(), a.end() - 1, b.begin()); });
+    keys.erase(copies.begin(), copies.end());
+    std::vector<uint32_t> triangles;
+    for (const Key& key : keys)
+        triangles.push_back(key.back());
+    std::ranges::sort(triangles);
+    return triangles;
+}
 
 double diagonal(const Surface& surface)
 {
@@ -117,26 +148,22 @@ Surface makeSurface(const mesh::SourceMesh& mesh, std::vector<uint32_t>* numbers
 {
     const mesh::Weld weld = mesh::weldPositions(mesh.positions);
     std::vector<uint32_t> index_of_id(weld.position_count, kInvalidIndex);
+    std::vector<uint32_t> triangles = findDistinctTriangles(mesh, weld.position_id_of_vertex);
     Surface surface;
-    for (uint32_t triangle = 0; triangle < mesh.triangleCount(); ++triangle)
-    {
-        const uint32_t* const vertices = &mesh.indices[3 * size_t{triangle}];
-        if (mesh::isDegenerate(mesh.positions[vertices[0]], mesh.positions[vertices[1]],
-                               mesh.positions[vertices[2]]))
-            continue;
-        for (int corner = 0; corner < 3; ++corner)
+    for (const uint32_t triangle : triangles)
+        for (size_t corner = 0; corner < 3; ++corner)
         {
-            uint32_t& index = index_of_id[weld.position_id_of_vertex[vertices[corner]]];
+            const uint32_t vertex = mesh.indices[3 * size_t{triangle} + corner];
+            uint32_t& index = index_of_id[weld.position_id_of_vertex[vertex]];
             if (index == kInvalidIndex)
             {
                 index = static_cast<uint32_t>(surface.positions.size());
-                surface.positions.push_back(mesh.positions[vertices[corner]]);
+                surface.positions.push_back(mesh.positions[vertex]);
             }
             surface.indices.push_back(index);
         }
-        if (numbers != nullptr)
-            numbers->push_back(triangle);
-    }
+    if (numbers != nullptr)
+        *numbers = std::move(triangles);
     return surface;
 }
 

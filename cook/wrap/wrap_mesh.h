@@ -17,7 +17,8 @@ struct WrapOptions
     double max_seconds = 600; ///< processor time for each mesh
 };
 
-/// Return the triangles that have an area; positions that are equal have one index, and all are used.
+/// Return the triangles that have an area, without copies of earlier ones; positions that are equal have one
+/// index, and all are used.
 /// numbers  if not null: gets the number of each triangle in the mesh
 Surface makeSurface(const mesh::SourceMesh& mesh, std::vector<uint32_t>* numbers = nullptr);
 

@@ -167,6 +167,7 @@ Result<std::vector<WrapStatistics>> wrapPart(const std::string& import_path, con
 Result<std::string> describeSelfIntersections(const std::string& import_path, double max_seconds)
 {
     HEARTH_ASSIGN_OR_RETURN(const formats::PackView part, tools::openPart(import_path));
+    const double end = threadSeconds() + max_seconds;
     Json meshes = Json::array();
     for (uint32_t index = 0; hasMesh(part.container(), index); ++index)
     {
@@ -174,11 +175,11 @@ Result<std::string> describeSelfIntersections(const std::string& import_path, do
         std::vector<uint32_t> numbers;
         const Surface surface = makeSurface(mesh, &numbers);
         const std::optional<SelfIntersections> found =
-            findSelfIntersections(surface, kMaxListedPairs, max_seconds);
+            findSelfIntersections(surface, kMaxListedPairs, end - threadSeconds());
         if (!found)
-            return Error{
-                Issue::input_too_large, import_path, meshText(index, mesh.name),
-                fmt::format("its self-intersections take more than {:g} s of processor time", max_seconds)};
+            return Error{Issue::input_too_large, import_path, meshText(index, mesh.name),
+                         fmt::format("self-intersections up to it take more than {:g} s of processor time",
+                                     max_seconds)};
         Json pairs = Json::array();
         for (const TrianglePair& pair : found->pairs)
             pairs.push_back(Json::array({numbers[pair.a], numbers[pair.b]}));

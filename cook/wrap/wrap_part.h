@@ -25,7 +25,8 @@ Result<std::vector<WrapStatistics>> wrapPart(const std::string& import_path, con
 /// Read the meshes of an import part and find in each the triangles that intersect.
 /// returns  JSON text: {"meshes": [{"mesh": 0, "name": "...", "intersecting_triangle_pairs": 1, "pairs":
 ///          [[a, b]]}]}, of a mesh at most the first 1000 pairs
-/// errors: those of openPart and readSourceMesh; input_too_large if a mesh takes more than max_seconds
+/// errors: those of openPart and readSourceMesh; input_too_large if all together takes more than max_seconds
+/// of processor time
 Result<std::string> describeSelfIntersections(const std::string& import_path, double max_seconds);
 
 } // namespace hearth::wrap

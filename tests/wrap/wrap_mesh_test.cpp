@@ -194,6 +194,23 @@ TEST(WrapMesh, TrianglesWithoutAreaDoNotCount)
     EXPECT_EQ(with.value().triangle_materials, without.value().triangle_materials);
 }
 
+TEST(WrapMesh, CopiesOfTrianglesDoNotCount)
+{
+    SourceMesh mesh = makeQuad();
+    constexpr uint32_t kCorners[][3] = {{0, 1, 2}, {1, 2, 0}, {2, 1, 0}};
+    for (uint32_t copy = 0; copy < 30'000; ++copy)
+    {
+        mesh.indices.insert(mesh.indices.end(), std::begin(kCorners[copy % 3]), std::end(kCorners[copy % 3]));
+        mesh.triangle_materials.push_back(copy);
+    }
+    const Result<SourceMesh> with = wrap::wrapMesh(mesh, {}, "test.part", 0);
+    const Result<SourceMesh> without = wrap::wrapMesh(makeQuad(), {}, "test.part", 0);
+    ASSERT_TRUE(with.ok() && without.ok());
+    EXPECT_EQ(with.value().positions, without.value().positions);
+    EXPECT_EQ(with.value().indices, without.value().indices);
+    EXPECT_EQ(with.value().triangle_materials, without.value().triangle_materials);
+}
+
 TEST(WrapMesh, NothingWithAnAreaIsEmpty)
 {
     SourceMesh mesh;

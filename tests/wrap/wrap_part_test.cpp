@@ -1,6 +1,7 @@
 // Tests parts of wrapped meshes, and the command line of hearth-wrap.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/json/json.h"
+#include "cook/wrap/thread_time.h"
 #include "cook/wrap/wrap_part.h"
 #include "formats/base/regular_file.h"
 #include "tests/support/sandbox.h"
@@ -202,6 +203,21 @@ TEST(WrapProgram, LimitsNameTheMeshAndTheRemedy)
     }
 }
 
+TEST(WrapPart, TimeForSelfIntersectionsIsThatOfAllMeshes)
+{
+    Sandbox sandbox;
+    writePart(sandbox / "one.part", {shapes::tangle(40, 500)});
+    writePart(sandbox / "many.part", std::vector(50, shapes::tangle(40, 500)));
+    const double start = wrap::threadSeconds();
+    ASSERT_TRUE(wrap::describeSelfIntersections(sandbox / "one.part", 60).ok());
+    const double limit = 10 * (wrap::threadSeconds() - start);
+    EXPECT_TRUE(wrap::describeSelfIntersections(sandbox / "one.part", limit).ok());
+    const auto many = wrap::describeSelfIntersections(sandbox / "many.part", limit);
+    ASSERT_FALSE(many.ok());
+    EXPECT_EQ(many.error().issue, Issue::input_too_large);
+    EXPECT_NE(many.error().detail.find("processor time"), std::string::npos) << many.error().detail;
+}
+
 TEST(WrapProgram, ListsSelfIntersectionsByTheTrianglesOfTheSource)
 {
     mesh::SourceMesh crossing = makeLine(); // its triangle 0 has no area
@@ -211,7 +227,8 @@ TEST(WrapProgram, ListsSelfIntersectionsByTheTrianglesOfTheSource)
     crossing.positions.insert(crossing.positions.end(),
                               {{4, 0, 0}, {0, 4, 0}, {4, 4, 0}}); // beside the first
     crossing.indices.insert(crossing.indices.end(), {3, 4, 5, 6, 7, 8, 9, 11, 10});
-    crossing.triangle_materials.insert(crossing.triangle_materials.end(), 3, 0);
+    crossing.indices.insert(crossing.indices.end(), {4, 3, 5}); // a copy of the first
+    crossing.triangle_materials.insert(crossing.triangle_materials.end(), 4, 0);
     Sandbox sandbox;
     writePart(sandbox / "in.part", {makeLine(), crossing});
     const ProgramEnd end = sandbox.run({kProgram, "in.part", "--self-intersections", "out.json"});

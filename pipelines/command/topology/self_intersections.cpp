@@ -13,6 +13,10 @@ namespace hearth::command
 namespace
 {
 
+// Seconds of processor time. A scan of 1.6 million triangles takes about five; a tangle of a hundred thousand
+// that all intersect would take most of an hour, and nobody reads a list of so many pairs.
+constexpr const char* kMaxSeconds = "60";
+
 SelfIntersections readMesh(const Json& json)
 {
     SelfIntersections found;
@@ -35,7 +39,8 @@ SelfIntersectionCheck findSelfIntersections(const std::string& part, const std::
         return check;
     }
     const std::string output = folder + "/intersections.json";
-    if (const auto failure = runPrograms({{"wrap", subject, {part, "--self-intersections", output}}}))
+    if (const auto failure = runPrograms(
+            {{"wrap", subject, {part, "--self-intersections", output, "--max-seconds", kMaxSeconds}}}))
     {
         check.not_checked = failure->error;
         check.is_interrupted = failure->exit_code == kInterrupted;
