@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <optional>
 
 namespace hearth::gltf_export
 {
@@ -47,14 +49,65 @@ uint32_t countUvSets(const Material& material)
     return count;
 }
 
+/// Nodes of which only a name is left: those of proxies lost their meshes when they were cooked. They are used
+/// again, since programs rename one of two nodes that have the same name.
+class BareNodes
+{
+public:
+    explicit BareNodes(GltfDocument& document)
+        : document_(document), parents_(document.nodes.size(), kInvalidIndex)
+    {
+        std::vector<uint8_t> is_used(document.nodes.size(), 0);
+        for (const Skin& skin : document.skins)
+            for (const uint32_t joint : skin.joints)
+                is_used[joint] = 1;
+        for (const Animation& animation : document.animations)
+            for (const AnimationChannel& channel : animation.channels)
+                if (channel.node != kInvalidIndex)
+                    is_used[channel.node] = 1;
+        for (uint32_t i = 0; i < document.nodes.size(); ++i)
+        {
+            for (const uint32_t child : document.nodes[i].children)
+                parents_[child] = i;
+            if (is_used[i] == 0 && isBare(document.nodes[i]))
+                nodes_.emplace(document.nodes[i].name, i); // the first of a name
+        }
+    }
+
+    /// Take a node of a name out of the scene, without its transform; nothing: there is none.
+    std::optional<uint32_t> take(const std::string& name)
+    {
+        const auto found = nodes_.extract(name);
+        if (found.empty())
+            return std::nullopt;
+        const uint32_t node = found.mapped();
+        const uint32_t parent = parents_[node];
+        std::erase(parent == kInvalidIndex ? document_.scene_nodes : document_.nodes[parent].children, node);
+        document_.nodes[node] = {.name = name};
+        return node;
+    }
+
+private:
+    static bool isBare(const Node& node)
+    {
+        return node.children.empty() && node.lods.empty() && node.mesh == kInvalidIndex &&
+               node.camera == kInvalidIndex && node.light == kInvalidIndex;
+    }
+
+    GltfDocument& document_;
+    std::vector<uint32_t> parents_;
+    std::map<std::string, uint32_t> nodes_;
+};
+
 /// Adds the proxies of one mesh.
 class ProxyWriter
 {
 public:
     /// parent  node that has the mesh
     /// name    of the mesh, for names of nodes where the parent has none
-    ProxyWriter(GltfDocument& document, const PackView& pack, uint32_t parent, std::string name)
-        : document_(document), pack_(pack), parent_(parent), name_(std::move(name))
+    ProxyWriter(GltfDocument& document, const PackView& pack, BareNodes& bare_nodes, uint32_t parent,
+                std::string name)
+        : document_(document), pack_(pack), bare_nodes_(bare_nodes), parent_(parent), name_(std::move(name))
     {
         if (!document.nodes[parent].name.empty())
             name_ = document.nodes[parent].name;
@@ -120,36 +173,26 @@ private:
         return primitive;
     }
 
-    /// Give the mesh to a node below the parent: one of that name that is left of the source, or a new one.
+    /// Put a mesh into a node below the parent, one that is left of the source if there is one of that name.
     void addNode(const std::string& name, const std::string& mark, uint32_t mesh)
     {
         document_.meshes[mesh].name = name;
-        for (const uint32_t child : document_.nodes[parent_].children)
-            if (isLeft(document_.nodes[child], name))
-            {
-                document_.nodes[child].mesh = mesh;
-                return;
-            }
-        Node node;
-        node.name = name;
-        node.mesh = mesh;
-        const auto index = static_cast<uint32_t>(document_.nodes.size());
+        uint32_t index = 0;
+        if (const std::optional<uint32_t> bare = bare_nodes_.take(name))
+            index = *bare;
+        else
+        {
+            index = static_cast<uint32_t>(document_.nodes.size());
+            document_.nodes.push_back({.name = name});
+            document_.extras.push_back({fmt::format("/nodes/{}", index), "{\"hearth_proxy\":" + mark + "}"});
+        }
+        document_.nodes[index].mesh = mesh;
         document_.nodes[parent_].children.push_back(index);
-        document_.nodes.push_back(std::move(node));
-        document_.extras.push_back({fmt::format("/nodes/{}", index), "{\"hearth_proxy\":" + mark + "}"});
-    }
-
-    /// True if a node lost the mesh of a proxy when it was cooked, and stands where that mesh stands.
-    static bool isLeft(const Node& node, const std::string& name)
-    {
-        const Node plain;
-        return node.name == name && node.mesh == kInvalidIndex && node.children.empty() && !node.matrix &&
-               node.translation == plain.translation && node.rotation == plain.rotation &&
-               node.scale == plain.scale;
     }
 
     GltfDocument& document_;
     const PackView& pack_;
+    BareNodes& bare_nodes_;
     uint32_t parent_;
     std::string name_;
     size_t convex_parts_ = 0;
@@ -165,6 +208,7 @@ void addProxies(GltfDocument& document, const PackView& pack, std::span<const ui
         if (const uint32_t mesh = document.nodes[node].mesh;
             mesh != kInvalidIndex && node_of_mesh[mesh] == kInvalidIndex)
             node_of_mesh[mesh] = node;
+    BareNodes bare_nodes(document);
     const std::span<const ProxyRecord> proxies = pack.proxies();
     for (uint32_t mesh = 0; mesh < meshes.size(); ++mesh)
     {
@@ -176,7 +220,7 @@ void addProxies(GltfDocument& document, const PackView& pack, std::span<const ui
             omissions.add("proxies of meshes that are not in the file", of_mesh.size());
             continue;
         }
-        ProxyWriter writer(document, pack, node_of_mesh[meshes[mesh]],
+        ProxyWriter writer(document, pack, bare_nodes, node_of_mesh[meshes[mesh]],
                            document.meshes[meshes[mesh]].name.empty() ? fmt::format("mesh_{}", mesh)
                                                                       : document.meshes[meshes[mesh]].name);
         for (const ProxyRecord& proxy : of_mesh)

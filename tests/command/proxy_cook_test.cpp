@@ -5,8 +5,10 @@
 #include "tests/support/json_schema.h"
 #include "tests/support/sandbox.h"
 
+#include <cstring>
 #include <filesystem>
 #include <gtest/gtest.h>
+#include <set>
 
 namespace hearth::test
 {
@@ -187,8 +189,8 @@ TEST_F(CookProxies, belongToTheMeshesOfTheirSource)
 
 TEST_F(CookProxies, haveAtMostTheTrianglesThatAreAsked)
 {
-    const ProgramEnd made =
-        folder.run({std::string(HEARTH_BIN) + "/hearth-samples", "rock", "-o", "rock.glb"});
+    const ProgramEnd made = folder.run(
+        {std::string(HEARTH_BIN) + "/hearth-samples", "rock", "--triangles", "20000", "-o", "rock.glb"});
     ASSERT_EQ(made.exit_code, 0) << made.err;
     ASSERT_EQ(cook({"rock.glb"}, {"--proxy-from", "clean", "--proxy-triangles", "500"}).exit_code, 0);
     const Json pack = inspect();
@@ -310,6 +312,29 @@ TEST_F(CookProxies, comeBackFromGltfAsTheyWere)
         EXPECT_TRUE(turn == 0 || again["scene"]["nodes"] == nodes) << "nodes do not pile up";
         nodes = again["scene"]["nodes"].get<size_t>();
     }
+}
+
+TEST_F(CookProxies, areInGltfOnceByTheirNamesBelowTheirMeshes)
+{
+    writeRock();
+    ASSERT_EQ(cook({"rock.gltf"}, {}).exit_code, 0);
+    ASSERT_EQ(hearth({"extract", "a.hearth", "-o", "rock.glb"}).exit_code, 0);
+    const std::string glb = folder.read("rock.glb");
+    uint32_t size = 0;
+    std::memcpy(&size, glb.data() + 12, sizeof(size));
+    const Json nodes = Json::parse(glb.substr(20, size)).value()["nodes"];
+    std::set<std::string> names;
+    for (const Json& node : nodes)
+        EXPECT_TRUE(names.insert(node["name"].get<std::string>()).second) << node.dump();
+    std::vector<std::string> below_rock;
+    for (const Json& child : nodes[0]["children"])
+    {
+        const Json& node = nodes[child.get<size_t>()];
+        below_rock.push_back(node["name"].get<std::string>());
+        EXPECT_TRUE(node.contains("mesh")) << node.dump();
+        EXPECT_FALSE(node.contains("scale") || node.contains("translation")) << node.dump();
+    }
+    EXPECT_EQ(below_rock, (std::vector<std::string>{"Rock_PROXY", "UCX_Rock_01", "UCX_Rock_02"}));
 }
 
 TEST_F(CookProxies, thatWereMadeComeBackFromGltfAsThoseOfArtists)

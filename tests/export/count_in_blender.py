@@ -1,5 +1,5 @@
 # Opens GLB files in Blender and compares its counts with those of the files: meshes, triangles, lights, cameras,
-# bones, clips. Run by `blender -b --factory-startup -P count_in_blender.py -- FILE...`; ends with 1 where a file
+# bones, clips, and proxies, by their names below those of their meshes, with their triangles. Run by `blender -b --factory-startup -P count_in_blender.py -- FILE...`; ends with 1 where a file
 # does not open or a count differs.
 # SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 import json
@@ -36,6 +36,23 @@ def count_triangles(document, binary, mesh):
     return count
 
 
+def is_proxy(name):
+    return name.endswith("_PROXY") or name.startswith("UCX_")
+
+
+def find_proxies(document, binary):
+    """By the name of a proxy: the name of the node above it, and its triangles. Blender changes equal and long names."""
+    nodes = document.get("nodes", [])
+    names = [node.get("name", "") for node in nodes]
+    is_kept = [0 < len(name.encode()) < 64 and names.count(name) == 1 for name in names]
+    return {
+        names[child]: (names[i], count_triangles(document, binary, nodes[child]["mesh"]))
+        for i, node in enumerate(nodes)
+        for child in node.get("children", [])
+        if "mesh" in nodes[child] and is_proxy(names[child]) and is_kept[child] and is_kept[i]
+    }
+
+
 def count_in_file(path):
     document, binary = read_file(path)
     levels = {i for n in document.get("nodes", []) for i in n.get("extensions", {}).get("MSFT_lod", {}).get("ids", [])}
@@ -51,10 +68,15 @@ def count_in_file(path):
         "clips": sum(
             any(c["target"]["path"] in CLIP_PATHS for c in clip["channels"]) for clip in document.get("animations", [])
         ),
+        "proxies": len(find_proxies(document, binary)),
     }
 
 
-def count_in_blender(path):
+def count_polygons(mesh):
+    return sum(len(polygon.vertices) - 2 for polygon in mesh.data.polygons)
+
+
+def count_in_blender(path, proxies):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.ops.import_scene.gltf(filepath=path)
     # the importer's own shapes of bones lie in a collection of their own
@@ -65,11 +87,14 @@ def count_in_blender(path):
     tracks = {t.name for o in animated if o.animation_data for t in o.animation_data.nla_tracks}
     return {
         "meshes": len(meshes),
-        "triangles": sum(len(p.vertices) - 2 for o in meshes for p in o.data.polygons),
+        "triangles": sum(count_polygons(o) for o in meshes),
         "lights": sum(o.type == "LIGHT" for o in objects),
         "cameras": sum(o.type == "CAMERA" for o in objects),
         "bones": sum(len(a.bones) for a in bpy.data.armatures),
         "clips": len(tracks),
+        "proxies": sum(
+            o.parent is not None and proxies.get(o.name) == (o.parent.name, count_polygons(o)) for o in meshes
+        ),
     }
 
 
@@ -79,7 +104,7 @@ def main():
     for path in files:
         expected = count_in_file(path)
         try:
-            found = count_in_blender(path)
+            found = count_in_blender(path, find_proxies(*read_file(path)))
         except RuntimeError as error:
             print(f"{path}: does not open: {error}")
             continue
