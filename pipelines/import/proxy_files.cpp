@@ -52,16 +52,18 @@ bool isCalledConvex(std::string_view name)
 }
 
 /// Read the mesh of an instance where it is drawn.
-Result<ProxyPiece> readPiece(const PackView& from, const InstanceRecord& instance, const std::string& file)
+Result<FileProxyPiece> readPiece(const PackView& from, const InstanceRecord& instance,
+                                 const std::string& file)
 {
-    ProxyPiece piece;
+    FileProxyPiece piece;
     HEARTH_ASSIGN_OR_RETURN(piece.mesh, mesh::readSourceMesh(from.container(), instance.mesh));
     if (!bakeTransform(piece.mesh, widened(instance.world_from_object)))
         return Error{Issue::number_too_large, file, piece.mesh.name,
                      "a proxy cannot be moved to its place: its transform has no inverse"};
     const std::string_view node = from.text(from.nodes()[instance.node].name);
     piece.is_convex = isCalledConvex(node) || isCalledConvex(piece.mesh.name);
-    piece.mesh.triangle_materials.assign(piece.mesh.triangleCount(), kInvalidIndex);
+    for (const MaterialRecord& material : from.materials())
+        piece.material_names.emplace_back(from.text(material.name));
     piece.where = file;
     return piece;
 }
@@ -91,7 +93,7 @@ Result<std::vector<FileProxies>> readProxyFiles(std::span<const std::string> wor
         HEARTH_ASSIGN_OR_RETURN(const PackView view, PackView::read(std::move(reader)));
         for (const InstanceRecord& instance : view.instances())
         {
-            HEARTH_ASSIGN_OR_RETURN(ProxyPiece piece, readPiece(view, instance, proxies.file));
+            HEARTH_ASSIGN_OR_RETURN(FileProxyPiece piece, readPiece(view, instance, proxies.file));
             proxies.pieces.push_back(std::move(piece));
         }
         all.push_back(std::move(proxies));

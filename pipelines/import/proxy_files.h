@@ -14,7 +14,7 @@ namespace hearth::import
 
 /// Read the files as sources, one after the other, through a temporary part in `temporary_folder`. All that a
 /// file draws is the proxy, in the place where it draws it; nodes and meshes called UCX_X are convex parts.
-/// Materials are not kept.
+/// Materials are kept by their names.
 ///
 /// words   "MESH=FILE", or "FILE" for the only mesh; files are in the folder of `source`, by relative paths
 /// source  exists

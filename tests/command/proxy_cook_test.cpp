@@ -403,6 +403,29 @@ TEST_F(CookProxies, ofFilesAreOfTheOnlyMeshOrOfOneThatIsNamed)
     EXPECT_EQ(inspect()["proxies"][0]["triangles"], 12);
 }
 
+TEST_F(CookProxies, ofFilesHaveTheMaterialsOfTheirSourceByName)
+{
+    writeRock();
+    folder.write("hull.obj", "mtllib crate.mtl\nv 2 0 0\nv 4 0 0\nv 3 2 0\nv 3 1 -2\n"
+                             "usemtl wood\nf 1 2 3\nusemtl tin plate\nf 2 1 4\n"
+                             "usemtl moss\nf 3 2 4\nusemtl stone\nf 1 3 4\n");
+    const auto cookWithHull = [&](const std::string& source, const std::string& word)
+    {
+        EXPECT_EQ(cook({source}, {"--proxy", word}).exit_code, 0);
+        return extractProxies(1);
+    };
+    const std::string of_crate = cookWithHull("crate.obj", "hull.obj");
+    for (const char* group : {"\ng wood\nf ", "\ng tin_plate\nf "})
+        EXPECT_EQ(countOccurrences(of_crate, group), 1u) << of_crate;
+    EXPECT_EQ(countOccurrences(of_crate, "\nf "), 4u) << of_crate;
+    EXPECT_EQ(countOccurrences(of_crate, "moss") + countOccurrences(of_crate, "stone"), 0u)
+        << "materials that the source lacks: " << of_crate;
+    const std::string of_rock = cookWithHull("rock.gltf", "Rock=hull.obj");
+    for (const char* group : {"\ng moss\nf ", "\ng stone\nf "})
+        EXPECT_EQ(countOccurrences(of_rock, group), 1u) << of_rock;
+    EXPECT_EQ(countOccurrences(of_rock, "wood"), 0u) << of_rock;
+}
+
 TEST_F(CookProxies, E1000_filesOfNoMesh)
 {
     writeRock();

@@ -167,10 +167,14 @@ std::optional<Transform> MeshWriter::objectFromPiece(const GltfProxy& proxy,
 Status MeshWriter::writeFileProxies(const GltfProxy& proxy, const mesh::SourceMesh& of)
 {
     const std::optional<Transform> object_from_world = inverted(world_from_node_[proxy.node]);
+    std::vector<std::string_view> material_names;
+    for (const GltfMaterial& material : model_.materials)
+        material_names.push_back(material.name);
     std::vector<ProxyPiece> pieces;
     for (const FileProxies* const file : proxy.files)
-        for (ProxyPiece piece : file->pieces)
+        for (const FileProxyPiece& from_file : file->pieces)
         {
+            ProxyPiece piece = withMaterialsOf(material_names, from_file);
             if (!object_from_world || !bakeTransform(piece.mesh, *object_from_world))
                 return context_.error(Issue::usage, fmt::format("/nodes/{}", proxy.node),
                                       fmt::format("--proxy {}: the proxy cannot be moved to the mesh of this "

@@ -104,6 +104,20 @@ MadeProxy makeConvexProxy(std::span<const ProxyPiece> pieces, PartBuilder& part)
 
 } // namespace
 
+ProxyPiece withMaterialsOf(std::span<const std::string_view> names, FileProxyPiece piece)
+{
+    std::vector<uint32_t> number_of_material;
+    for (const std::string& name : piece.material_names)
+    {
+        const auto found = std::ranges::find(names, name);
+        number_of_material.push_back(found == names.end() ? kInvalidIndex
+                                                          : static_cast<uint32_t>(found - names.begin()));
+    }
+    for (uint32_t& material : piece.mesh.triangle_materials)
+        material = material == kInvalidIndex ? kInvalidIndex : number_of_material[material];
+    return std::move(piece);
+}
+
 Error findNoMeshError(const FileProxies& proxies, std::span<const std::string> names)
 {
     constexpr size_t kMaxListed = 8;

@@ -6,6 +6,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hearth::import
@@ -19,14 +20,25 @@ struct ProxyPiece
     std::string where; ///< JSON pointer or file name, for warnings
 };
 
+/// Piece of a proxy from a file, which has materials of its own.
+struct FileProxyPiece : ProxyPiece
+{
+    std::vector<std::string> material_names; ///< of the numbers in mesh.triangle_materials
+};
+
 /// Proxies of one mesh from a file, in the space in which both files are drawn.
 struct FileProxies
 {
     std::string mesh; ///< name of the mesh or of its node; empty: the only mesh
     std::string file; ///< as it was named
     std::string word; ///< of the command line, for errors
-    std::vector<ProxyPiece> pieces;
+    std::vector<FileProxyPiece> pieces;
 };
+
+/// Return the piece with the source's materials of the same names; a material that the source lacks is
+/// unknown.
+/// names  of the source's materials; of equal ones the first counts
+ProxyPiece withMaterialsOf(std::span<const std::string_view> names, FileProxyPiece piece);
 
 /// Return the error for proxies of which nobody knows for which mesh they are.
 /// names  of meshes of the source

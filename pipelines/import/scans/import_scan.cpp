@@ -98,12 +98,16 @@ Status addFileProxies(const mesh::SourceMesh& mesh, const ImportOptions& options
 {
     if (options.file_proxies == nullptr)
         return success();
+    std::vector<std::string_view> material_names;
+    for (const formats::MaterialRecord& material : part.materials)
+        material_names.push_back(part.text(material.name));
     std::vector<ProxyPiece> pieces;
     for (const FileProxies& proxies : *options.file_proxies)
     {
         if (!proxies.mesh.empty() && lowerProxyStem(proxies.mesh) != lowerProxyStem(mesh.name))
             return findNoMeshError(proxies, {&mesh.name, 1});
-        pieces.insert(pieces.end(), proxies.pieces.begin(), proxies.pieces.end());
+        for (const FileProxyPiece& piece : proxies.pieces)
+            pieces.push_back(withMaterialsOf(material_names, piece));
     }
     addProxies(0, mesh, pieces, part);
     return success();
