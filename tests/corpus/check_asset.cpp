@@ -23,6 +23,11 @@ constexpr Limits kLookLimits{120, uint64_t{4} << 30};
 // Baking what each vertex sees takes seconds for each hundred thousand triangles.
 constexpr uint64_t kMaxBakedTriangles = 50'000;
 
+// Wraps take as long as their surfaces are large, over alpha: this runs all of the code in a few hundredths of
+// the time.
+constexpr const char* kWrapOptions[] = {"--alpha", "0.2", "--offset", "0.02"};
+constexpr uint64_t kMaxWrappedTriangles = 50'000;
+
 constexpr size_t kReportedLines = 3;
 constexpr size_t kMaxMessages = size_t{16} << 20;
 
@@ -71,17 +76,24 @@ ProcessEnd run(const Workplace& place, std::vector<std::string> arguments, const
         {std::move(arguments), std::move(environment), folder, place.stdout_file, place.stderr_file}, limits);
 }
 
+/// Return the triangles that the manifest says; 0 for malformed assets, which are small.
+uint64_t countTriangles(const Asset& asset)
+{
+    const auto triangles = asset.counts.find("triangles");
+    return triangles == asset.counts.end() ? 0 : triangles->second;
+}
+
 ProcessEnd cook(const Workplace& place, const Asset& asset, const Programs& programs)
 {
     const std::string library =
         fs::read_symlink("/proc/self/exe").parent_path().string() + "/" + kOpenLogLibrary;
     // coarse textures and bricks go through the same code as fine ones, and so does baking of small models
-    std::vector<std::string> command = {programs.hearth,     "cook",  asset.path,       "-o", place.pack,
-                                        "--texture-quality", "draft", "--brick-memory", "1M"};
+    std::vector<std::string> command = {programs.hearth, "cook",           asset.path, "-o",
+                                        place.pack,      "--proxy-from",   "clean",    "--texture-quality",
+                                        "draft",         "--brick-memory", "1M"};
     if (!asset.counts.contains("width"))
         command.insert(command.end(), {"--max-texture-size", "512"});
-    if (const auto triangles = asset.counts.find("triangles");
-        triangles != asset.counts.end() && triangles->second > kMaxBakedTriangles)
+    if (countTriangles(asset) > kMaxBakedTriangles)
         command.insert(command.end(), {"--visibility", "off"});
     return run(place, std::move(command), asset.limits, place.box,
                {"LD_PRELOAD=" + library, std::string(kOpenLogVariable) + "=" + place.open_log,
@@ -278,6 +290,24 @@ void addDrawingFaults(std::vector<std::string>& faults, const Workplace& place, 
         faults.push_back("hearth-render writes no image");
 }
 
+/// Write the pack as GLB and import that, with its proxies and, to wrap its meshes, without.
+void addExportFaults(std::vector<std::string>& faults, const Workplace& place, const Asset& asset,
+                     const Programs& programs)
+{
+    const auto succeeds = [&](const std::string& name, std::vector<std::string> command)
+    { return look(faults, name, place, std::move(command), place.box); };
+    if (!succeeds("hearth extract", {programs.hearth, "extract", place.pack, "-o", "asset.glb"}) ||
+        !succeeds("hearth-import of the GLB", {programs.import, "asset.glb", "-o", "again.part"}))
+        return;
+    if (programs.wrap.empty() || countTriangles(asset) > kMaxWrappedTriangles)
+        return;
+    std::vector<std::string> wrap = {programs.wrap, "bare.part", "-o", "wrap.part"};
+    wrap.insert(wrap.end(), std::begin(kWrapOptions), std::end(kWrapOptions));
+    if (succeeds("hearth-import of the GLB",
+                 {programs.import, "asset.glb", "-o", "bare.part", "--proxies", "off"}))
+        succeeds("hearth-wrap", std::move(wrap));
+}
+
 void addPackFaults(std::vector<std::string>& faults, const Workplace& place, const Asset& asset,
                    const Programs& programs)
 {
@@ -287,6 +317,7 @@ void addPackFaults(std::vector<std::string>& faults, const Workplace& place, con
         return;
     }
     look(faults, "hearth verify", place, {programs.hearth, "verify", place.pack}, place.box);
+    addExportFaults(faults, place, asset, programs);
     if (!asset.expected->mustLoad())
         return;
     addCountFaults(faults, place, asset, programs);

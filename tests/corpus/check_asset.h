@@ -1,5 +1,5 @@
 // Cooks one asset as a user would, checks the pack or the error, and compares the outcome with the asset's
-// class.
+// class; writes packs as GLB, and wraps what these have.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -15,7 +15,9 @@ namespace hearth::corpus
 struct Programs
 {
     std::string hearth; ///< absolute path
+    std::string import; ///< hearth-import's absolute path
     std::string render; ///< absolute path; empty: packs are not rendered
+    std::string wrap;   ///< absolute path; empty: nothing is wrapped
     AllowedFiles allowed;
 };
 
@@ -35,7 +37,7 @@ struct Finding
     int exit_code = 0;
     std::vector<std::string> messages; ///< the most informative lines that the cook wrote to stderr
     double cook_seconds = 0;
-    double total_seconds = 0; ///< including verify, inspect and rendering
+    double total_seconds = 0; ///< including all that is done with the pack
     uint64_t peak_rss_bytes = 0;
 };
 

@@ -151,7 +151,15 @@ int run(const Arguments& arguments)
         return reportFailure(assets.error());
     }
     const std::string bin = fs::canonical(arguments.programs).string();
-    Programs programs{bin + "/hearth", arguments.no_render ? "" : bin + "/hearth-render", {bin, {}}};
+    // hearth-wrap is built where CGAL is
+    const std::string wrap = bin + "/hearth-wrap";
+    Programs programs{.hearth = bin + "/hearth",
+                      .import = bin + "/hearth-import",
+                      .render = arguments.no_render ? "" : bin + "/hearth-render",
+                      .wrap = fs::exists(wrap) ? wrap : "",
+                      .allowed = {bin, {}}};
+    if (programs.wrap.empty())
+        std::puts("hearth-wrap is not built: nothing is wrapped");
     std::vector<const Asset*> assets_chosen;
     for (const Asset& asset : *assets)
         if (chosen(asset, arguments))

@@ -77,7 +77,9 @@ protected:
     Finding check(const Asset& asset, const std::string& cook) const
     {
         writeScript("hearth", "case $1 in\ncook) asset=$2; out=$4; " + cook + " ;;\nverify) " + verify_ +
-                                  " ;;\ninspect) " + inspect_ + " ;;\nesac");
+                                  " ;;\ninspect) " + inspect_ + " ;;\nextract) " + extract_ + " ;;\nesac");
+        writeScript("hearth-import", import_);
+        writeScript("hearth-wrap", wrap_);
         writeScript("hearth-render", "out=$3\n" + render_);
         return checkAsset(asset, programs(), root_ + "/work");
     }
@@ -85,7 +87,12 @@ protected:
     Programs programs() const
     {
         // the shell's own tools probe there for security modules
-        return {root_ + "/bin/hearth", root_ + "/bin/hearth-render", {root_ + "/bin", {"/proc/filesystems"}}};
+        const std::string bin = root_ + "/bin";
+        return {.hearth = bin + "/hearth",
+                .import = bin + "/hearth-import",
+                .render = bin + "/hearth-render",
+                .wrap = bin + "/hearth-wrap",
+                .allowed = {bin, {"/proc/filesystems"}}};
     }
 
     /// Return the faults found for an asset of this class with this cook.
@@ -101,6 +108,9 @@ protected:
     std::string verify_ = "true";
     std::string inspect_ = kGoodInspect;
     std::string render_ = kGoodRender;
+    std::string extract_ = "true";
+    std::string import_ = "true";
+    std::string wrap_ = "true";
 };
 
 TEST_F(CheckAsset, acceptsASoundPackAndLeavesNothing)
@@ -245,6 +255,30 @@ TEST_F(CheckAsset, drawsWhatMustLoad)
     render_ = "true";
     EXPECT_THAT(faults(kGoodCook, "must-load"), ElementsAre("hearth-render writes no image"));
     EXPECT_THAT(faults(kGoodCook, "must-not-crash"), IsEmpty());
+}
+
+TEST_F(CheckAsset, asksThatThePackBecomesAGlbThatIsImported)
+{
+    extract_ = "echo 'asset.hearth: error: a defect' >&2; exit 70";
+    EXPECT_THAT(faults(kGoodCook),
+                ElementsAre("hearth extract exits with 70: asset.hearth: error: a defect"));
+    EXPECT_THAT(faults(kGoodReject), IsEmpty());
+    extract_ = "true";
+    import_ = "echo 'asset.glb: error: it is damaged' >&2; exit 65";
+    EXPECT_THAT(faults(kGoodCook),
+                ElementsAre("hearth-import of the GLB exits with 65: asset.glb: error: it is damaged"));
+}
+
+TEST_F(CheckAsset, wrapsSmallModels)
+{
+    wrap_ = "kill -SEGV $$";
+    EXPECT_THAT(faults(kGoodCook), ElementsAre(HasSubstr("hearth-wrap is ended by signal 11")));
+    Asset large = asset("must-not-crash");
+    large.counts["triangles"] = 60'000;
+    EXPECT_THAT(check(large, kGoodCook).faults, IsEmpty());
+    Programs without = programs();
+    without.wrap.clear();
+    EXPECT_THAT(checkAsset(asset("must-not-crash"), without, root_ + "/work").faults, IsEmpty());
 }
 
 TEST_F(CheckAsset, readsTheManifest)
