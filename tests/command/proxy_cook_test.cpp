@@ -5,10 +5,12 @@
 #include "tests/support/json_schema.h"
 #include "tests/support/sandbox.h"
 
+#include <array>
 #include <cstring>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <set>
+#include <sys/resource.h>
 
 namespace hearth::test
 {
@@ -23,6 +25,46 @@ constexpr const char* kCrate = "mtllib crate.mtl\n"
                                "usemtl wood\nf 4 3 2 9 1\nf 5 10 6 7 8\nf 1 5 8 4\nf 6 2 3 7\n"
                                "f 1 9 10 5\nf 9 2 6 10\n"
                                "usemtl tin plate\nf 9 11 12 10\n";
+
+/// Return the JSON text of a GLB file.
+std::string readGlbJson(const std::string& glb)
+{
+    uint32_t size = 0;
+    std::memcpy(&size, glb.data() + 12, sizeof(size));
+    return glb.substr(20, size);
+}
+
+/// Append meshes that are the first one of a GLB file under other names, each with a node.
+std::string copyFirstMesh(const std::string& glb, int copies)
+{
+    const std::string before = readGlbJson(glb);
+    Json document = Json::parse(before).value();
+    for (int copy = 0; copy < copies; ++copy)
+    {
+        Json mesh = document["meshes"][0];
+        mesh["name"] = "copy " + std::to_string(document["meshes"].size());
+        document["scenes"][0]["nodes"].push_back(document["nodes"].size());
+        document["nodes"].push_back({{"mesh", document["meshes"].size()}});
+        document["meshes"].push_back(std::move(mesh));
+    }
+    std::string text = document.dump();
+    text.resize((text.size() + 3) / 4 * 4, ' ');
+    std::string changed = glb;
+    changed.replace(20, before.size(), text);
+    const auto sizes = std::array{static_cast<uint32_t>(changed.size()), static_cast<uint32_t>(text.size())};
+    std::memcpy(changed.data() + 8, sizes.data(), sizeof(sizes));
+    return changed;
+}
+
+/// Processor time of the programs that have ended.
+double childSeconds()
+{
+    rusage usage{};
+    ::getrusage(RUSAGE_CHILDREN, &usage);
+    const auto seconds = [](const timeval& time)
+    { return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec); };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
 
 class CookProxies : public ::testing::Test
 {
@@ -189,8 +231,8 @@ TEST_F(CookProxies, belongToTheMeshesOfTheirSource)
 
 TEST_F(CookProxies, haveAtMostTheTrianglesThatAreAsked)
 {
-    const ProgramEnd made = folder.run(
-        {std::string(HEARTH_BIN) + "/hearth-samples", "rock", "--triangles", "20000", "-o", "rock.glb"});
+    const ProgramEnd made = folder.run({std::string(HEARTH_BIN) + "/hearth-samples", "rock", "--triangles",
+                                        "20000", "--texture-size", "1", "-o", "rock.glb"});
     ASSERT_EQ(made.exit_code, 0) << made.err;
     ASSERT_EQ(cook({"rock.glb"}, {"--proxy-from", "clean", "--proxy-triangles", "500"}).exit_code, 0);
     const Json pack = inspect();
@@ -233,6 +275,42 @@ TEST_F(CookProxies, haveConvexPartsForPhysics)
     EXPECT_TRUE(proxies[0]["sections"][1]["convex"].get<bool>());
     EXPECT_EQ(proxies[0]["sections"][1]["triangles"], 12);
     EXPECT_EQ(hearth({"verify", "a.hearth"}).exit_code, 0);
+}
+
+TEST_F(CookProxies, ofMeshesOfOneShapeAreMadeOnce)
+{
+    const auto run = [&](const std::string& program, const std::vector<std::string>& arguments)
+    {
+        std::vector<std::string> words{std::string(HEARTH_BIN) + "/hearth-" + program};
+        words.insert(words.end(), arguments.begin(), arguments.end());
+        const ProgramEnd end = folder.run(words);
+        EXPECT_EQ(end.exit_code, 0) << end.err;
+        return end.out;
+    };
+    run("samples", {"rock", "--triangles", "3000", "--texture-size", "1", "-o", "rock.glb"});
+    const std::string rock = folder.read("rock.glb");
+    const auto makeProxies = [&](int copies)
+    {
+        folder.write("rocks.glb", copyFirstMesh(rock, copies));
+        run("import", {"rocks.glb", "-o", "i.part"});
+        run("clusters", {"i.part", "-o", "c.part"});
+        const double start = childSeconds();
+        const std::string statistics =
+            run("proxy", {"i.part", "c.part", "-o", "p.part", "--convex-parts", "2", "--stats", "-"});
+        return std::pair(Json::parse(statistics).value()["meshes"], childSeconds() - start);
+    };
+    const auto [one, seconds_of_one] = makeProxies(0);
+    const auto [many, seconds_of_many] = makeProxies(20);
+    EXPECT_LE(seconds_of_many, 5 * seconds_of_one) << seconds_of_one;
+    ASSERT_EQ(many.size(), one.size() + 20);
+    for (size_t i = one.size(); i < many.size(); ++i)
+    {
+        EXPECT_EQ(many[i]["mesh"], i);
+        EXPECT_EQ(many[i]["name"], "copy " + std::to_string(i));
+        for (const char* value : {"triangles", "mesh_triangles", "convex_parts", "distance", "bytes"})
+            EXPECT_EQ(many[i][value], one[0][value]) << value;
+    }
+    EXPECT_GT(one[0]["convex_parts"].get<int>(), 1);
 }
 
 TEST_F(CookProxies, ofArtistsAreCarriedAndNotDrawn)
@@ -319,10 +397,7 @@ TEST_F(CookProxies, areInGltfOnceByTheirNamesBelowTheirMeshes)
     writeRock();
     ASSERT_EQ(cook({"rock.gltf"}, {}).exit_code, 0);
     ASSERT_EQ(hearth({"extract", "a.hearth", "-o", "rock.glb"}).exit_code, 0);
-    const std::string glb = folder.read("rock.glb");
-    uint32_t size = 0;
-    std::memcpy(&size, glb.data() + 12, sizeof(size));
-    const Json nodes = Json::parse(glb.substr(20, size)).value()["nodes"];
+    const Json nodes = Json::parse(readGlbJson(folder.read("rock.glb"))).value()["nodes"];
     std::set<std::string> names;
     for (const Json& node : nodes)
         EXPECT_TRUE(names.insert(node["name"].get<std::string>()).second) << node.dump();

@@ -11,7 +11,12 @@
 #include "formats/pack/pack_check.h"
 
 #include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
 #include <optional>
+#include <ranges>
+#include <span>
 
 #include <tbb/parallel_for.h>
 
@@ -34,6 +39,18 @@ struct ProxiesOfMesh
     std::vector<MadeProxy> made;
     std::vector<MeshStatistics> statistics;
 };
+
+/// Hashes of all that a proxy is made of: equal surfaces have equal proxies.
+using SurfaceHashes = std::array<uint64_t, 5>;
+
+/// base    surface that becomes the proxy
+/// source  surface to which its distances are bounded
+SurfaceHashes hashSurfaces(const Surface& base, const Surface& source)
+{
+    const auto hash = [](const auto& values) { return hashBytes(std::as_bytes(std::span(values))); };
+    return {hash(base.positions), hash(base.indices), hash(base.materials), hash(source.positions),
+            hash(source.indices)};
+}
 
 /// Copy a proxy of a part.
 MadeProxy readProxy(const PackView& part, const ProxyRecord& record)
@@ -72,22 +89,58 @@ public:
     {
     }
 
+    /// Find for each mesh the first one that has the same proxy: itself, or an earlier one of the same shape.
+    Result<std::vector<uint32_t>> findFirstOfShape() const
+    {
+        const auto mesh_count = static_cast<uint32_t>(clusters_.meshes().size());
+        // only meshes with the same counts are read and compared
+        std::map<std::array<uint32_t, 3>, std::vector<uint32_t>> alike;
+        for (uint32_t mesh = 0; mesh < mesh_count; ++mesh)
+        {
+            const MeshRecord& record = clusters_.meshes()[mesh];
+            if (needsProxy(mesh))
+                alike[{record.source_triangles, record.source_vertices, record.clusters.count}].push_back(
+                    mesh);
+        }
+        std::vector<uint32_t> first_of_shape(mesh_count);
+        std::iota(first_of_shape.begin(), first_of_shape.end(), 0u);
+        for (const auto& [counts, meshes] : alike)
+        {
+            if (meshes.size() == 1)
+                continue;
+            std::vector<std::optional<Result<SurfaceHashes>>> hashes(meshes.size());
+            tbb::parallel_for(size_t{0}, meshes.size(),
+                              [&](size_t i) { hashes[i].emplace(readHashes(meshes[i])); });
+            std::map<SurfaceHashes, uint32_t> first_of_hashes;
+            for (size_t i = 0; i < meshes.size(); ++i)
+            {
+                HEARTH_ASSIGN_OR_RETURN(const SurfaceHashes hash, *hashes[i]);
+                first_of_shape[meshes[i]] = first_of_hashes.emplace(hash, meshes[i]).first->second;
+            }
+        }
+        return first_of_shape;
+    }
+
     /// Take the proxies that an artist made for a mesh, or make one; none if the mesh has no area.
     Result<ProxiesOfMesh> make(uint32_t mesh) const
     {
         ProxiesOfMesh result;
-        const MeshRecord& record = clusters_.meshes()[mesh];
-        if (record.levels.count != 0)
+        if (needsProxy(mesh))
         {
-            const auto authored = std::ranges::equal_range(import_.proxies(), mesh, {}, &ProxyRecord::mesh);
-            for (const ProxyRecord& proxy : authored)
-                result.made.push_back(readProxy(import_, proxy));
-            if (authored.empty() && settings_.makes_missing)
-            {
-                HEARTH_ASSIGN_OR_RETURN(MadeProxy made, makeOne(mesh, result.statistics.emplace_back()));
-                result.made.push_back(std::move(made));
-            }
+            HEARTH_ASSIGN_OR_RETURN(MadeProxy made, makeOne(mesh, result.statistics.emplace_back()));
+            result.made.push_back(std::move(made));
         }
+        else if (clusters_.meshes()[mesh].levels.count != 0)
+            for (const ProxyRecord& proxy : findAuthored(mesh))
+                result.made.push_back(readProxy(import_, proxy));
+        return complete(mesh, std::move(result));
+    }
+
+    /// Complete the proxies of a mesh.
+    /// result  made for it, or for another one of the same shape
+    Result<ProxiesOfMesh> complete(uint32_t mesh, ProxiesOfMesh result) const
+    {
+        const MeshRecord& record = clusters_.meshes()[mesh];
         result.statistics.resize(std::max<size_t>(result.made.size(), 1));
         for (MeshStatistics& statistics : result.statistics)
         {
@@ -102,6 +155,31 @@ public:
     }
 
 private:
+    std::ranges::subrange<std::span<const ProxyRecord>::iterator> findAuthored(uint32_t mesh) const
+    {
+        return std::ranges::equal_range(import_.proxies(), mesh, {}, &ProxyRecord::mesh);
+    }
+
+    /// True if a proxy is made here: the mesh has an area, and no artist made one.
+    bool needsProxy(uint32_t mesh) const
+    {
+        return settings_.makes_missing && clusters_.meshes()[mesh].levels.count != 0 &&
+               findAuthored(mesh).empty();
+    }
+
+    /// Read the surface that becomes the proxy of a mesh: its wrap, or a cut.
+    Result<Surface> readBase(uint32_t mesh) const
+    {
+        return wrap_ != nullptr ? readSurface(*wrap_, mesh) : readCut(clusters_, mesh, findError(mesh));
+    }
+
+    Result<SurfaceHashes> readHashes(uint32_t mesh) const
+    {
+        HEARTH_ASSIGN_OR_RETURN(const Surface base, readBase(mesh));
+        HEARTH_ASSIGN_OR_RETURN(const Surface source, readSurface(import_, mesh));
+        return hashSurfaces(base, source);
+    }
+
     float findError(uint32_t mesh) const
     {
         const MeshRecord& record = clusters_.meshes()[mesh];
@@ -114,16 +192,11 @@ private:
     Result<MadeProxy> makeOne(uint32_t mesh, MeshStatistics& statistics) const
     {
         MadeProxy made;
+        HEARTH_ASSIGN_OR_RETURN(made.surface, readBase(mesh));
         if (wrap_ != nullptr)
-        {
             made.origin = ProxyOrigin::wrapped;
-            HEARTH_ASSIGN_OR_RETURN(made.surface, readSurface(*wrap_, mesh));
-        }
         else
-        {
-            HEARTH_ASSIGN_OR_RETURN(made.surface, readCut(clusters_, mesh, findError(mesh)));
             statistics.clean = cleanSurface(made.surface, {.hole_length = settings_.hole_length});
-        }
         if (made.surface.triangleCount() == 0)
             return made;
         HEARTH_ASSIGN_OR_RETURN(const Surface source, readSurface(import_, mesh));
@@ -213,8 +286,21 @@ Result<std::vector<MeshStatistics>> writeProxyPart(const PackView& import_part, 
     if (wrap_part != nullptr)
         HEARTH_TRY(checkMeshes(*wrap_part, mesh_count));
     const ProxyMaker maker(import_part, clusters_part, wrap_part, settings);
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<uint32_t> first_of_shape, maker.findFirstOfShape());
     std::vector<std::optional<Result<ProxiesOfMesh>>> made(mesh_count);
-    tbb::parallel_for(0u, mesh_count, [&](uint32_t mesh) { made[mesh].emplace(maker.make(mesh)); });
+    tbb::parallel_for(0u, mesh_count,
+                      [&](uint32_t mesh)
+                      {
+                          if (first_of_shape[mesh] == mesh)
+                              made[mesh].emplace(maker.make(mesh));
+                      });
+    tbb::parallel_for(0u, mesh_count,
+                      [&](uint32_t mesh)
+                      {
+                          const Result<ProxiesOfMesh>& first = *made[first_of_shape[mesh]];
+                          if (first_of_shape[mesh] != mesh)
+                              made[mesh].emplace(first.ok() ? maker.complete(mesh, first.value()) : first);
+                      });
     ProxyTables tables;
     std::vector<MeshStatistics> statistics;
     for (uint32_t mesh = 0; mesh < mesh_count; ++mesh)

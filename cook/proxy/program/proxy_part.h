@@ -46,8 +46,8 @@ struct MeshStatistics
 };
 
 /// Write proxies of all meshes with area: those that the import part has, for an artist made them, else one
-/// that is made here. The result depends neither on the number of threads nor, on
-/// processors of one class, on the machine.
+/// that is made here, once for meshes of the same shape. The result depends neither on the number of threads
+/// nor, on processors of one class, on the machine.
 ///
 /// import_part    meshes as they were imported
 /// clusters_part  of the same source
