@@ -57,7 +57,7 @@ Status cook(const Arguments& arguments)
     HEARTH_ASSIGN_OR_RETURN(const std::vector<wrap::WrapStatistics> meshes,
                             wrap::wrapPart(arguments.input, arguments.output, arguments.options));
     for (uint32_t i = 0; i < meshes.size(); ++i)
-        if (meshes[i].triangles == 0)
+        if (meshes[i].triangles == 0 && meshes[i].source_triangles > 0)
         {
             const Error warning{Issue::dropped, arguments.input, wrap::meshText(i, meshes[i].name),
                                 "no triangle has an area: its wrap is empty"};

@@ -166,6 +166,17 @@ TEST(WrapProgram, WrapsAndWarnsOfMeshesWithoutArea)
     EXPECT_GT(statistics->at("meshes").at(0).at("triangles").get<int>(), 100);
 }
 
+TEST(WrapProgram, SaysNothingOfMeshesWithoutTriangles)
+{
+    mesh::SourceMesh hull; // as the importer leaves meshes that are proxies
+    hull.name = "UCX_box";
+    Sandbox sandbox;
+    writePart(sandbox / "in.part", {hull, shapes::blocks(3)});
+    const ProgramEnd end = sandbox.run({kProgram, "in.part", "-o", "out.part", "--alpha", "0.1"});
+    EXPECT_EQ(end.exit_code, 0);
+    EXPECT_EQ(end.err, "");
+}
+
 TEST(WrapProgram, BadCommandLinesAndInputs)
 {
     Sandbox sandbox;
