@@ -49,8 +49,8 @@ uint32_t countUvSets(const Material& material)
     return count;
 }
 
-/// Nodes of which only a name is left: those of proxies lost their meshes when they were cooked. They are used
-/// again, since programs rename one of two nodes that have the same name.
+/// Nodes of which only a name is left: those of proxies lost their meshes when they were cooked. They are
+/// used again, since programs rename one of two nodes that have the same name.
 class BareNodes
 {
 public:

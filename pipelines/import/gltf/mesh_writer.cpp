@@ -174,7 +174,7 @@ Status MeshWriter::writeFileProxies(const GltfProxy& proxy, const mesh::SourceMe
     for (const FileProxies* const file : proxy.files)
         for (const FileProxyPiece& from_file : file->pieces)
         {
-            ProxyPiece piece = withMaterialsOf(material_names, from_file);
+            ProxyPiece piece = matchMaterials(material_names, from_file);
             if (!object_from_world || !bakeTransform(piece.mesh, *object_from_world))
                 return context_.error(Issue::usage, fmt::format("/nodes/{}", proxy.node),
                                       fmt::format("--proxy {}: the proxy cannot be moved to the mesh of this "

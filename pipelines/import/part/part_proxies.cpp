@@ -104,7 +104,7 @@ MadeProxy makeConvexProxy(std::span<const ProxyPiece> pieces, PartBuilder& part)
 
 } // namespace
 
-ProxyPiece withMaterialsOf(std::span<const std::string_view> names, FileProxyPiece piece)
+ProxyPiece matchMaterials(std::span<const std::string_view> names, FileProxyPiece piece)
 {
     std::vector<uint32_t> number_of_material;
     for (const std::string& name : piece.material_names)

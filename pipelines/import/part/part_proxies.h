@@ -38,7 +38,7 @@ struct FileProxies
 /// Return the piece with the source's materials of the same names; a material that the source lacks is
 /// unknown.
 /// names  of the source's materials; of equal ones the first counts
-ProxyPiece withMaterialsOf(std::span<const std::string_view> names, FileProxyPiece piece);
+ProxyPiece matchMaterials(std::span<const std::string_view> names, FileProxyPiece piece);
 
 /// Return the error for proxies of which nobody knows for which mesh they are.
 /// names  of meshes of the source

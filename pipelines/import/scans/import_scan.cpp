@@ -107,7 +107,7 @@ Status addFileProxies(const mesh::SourceMesh& mesh, const ImportOptions& options
         if (!proxies.mesh.empty() && lowerProxyStem(proxies.mesh) != lowerProxyStem(mesh.name))
             return findNoMeshError(proxies, {&mesh.name, 1});
         for (const FileProxyPiece& piece : proxies.pieces)
-            pieces.push_back(withMaterialsOf(material_names, piece));
+            pieces.push_back(matchMaterials(material_names, piece));
     }
     addProxies(0, mesh, pieces, part);
     return success();
