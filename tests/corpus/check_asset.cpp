@@ -23,8 +23,8 @@ constexpr Limits kLookLimits{120, uint64_t{4} << 30};
 // Baking what each vertex sees takes seconds for each hundred thousand triangles.
 constexpr uint64_t kMaxBakedTriangles = 50'000;
 
-// Wraps take as long as their surfaces are large, over alpha: this runs all of the code in a few hundredths of
-// the time.
+// Wraps take as long as their surfaces are large, over alpha: this runs all of the code in a few hundredths
+// of the time.
 constexpr const char* kWrapOptions[] = {"--alpha", "0.2", "--offset", "0.02"};
 constexpr uint64_t kMaxWrappedTriangles = 50'000;
 
