@@ -64,6 +64,25 @@ public:
     template <typename Point, typename IsNeeded, typename Visit>
     void visitNearest(Point point, const IsNeeded& isNeeded, const Visit& visit) const
     {
+        traverse(
+            point, [&](double distance2, const Box3&) { return isNeeded(distance2); }, visit);
+    }
+
+    /// Visit leaves, those that are nearer to a point first as far as boxes tell.
+    /// isNeeded  returns whether triangles within a box matter
+    /// visit     as visitNearest's
+    template <typename Point, typename IsNeeded, typename Visit>
+    void visitBoxes(Point point, const IsNeeded& isNeeded, const Visit& visit) const
+    {
+        traverse(
+            point, [&](double, const Box3& box) { return isNeeded(box); }, visit);
+    }
+
+private:
+    /// Visit leaves, nearer ones first. isNeeded is called with the squared distance of a box, and the box.
+    template <typename Point, typename IsNeeded, typename Visit>
+    void traverse(Point point, const IsNeeded& isNeeded, const Visit& visit) const
+    {
         struct Entry
         {
             uint32_t node;
@@ -77,9 +96,9 @@ public:
         while (size > 0)
         {
             const Entry entry = stack[--size];
-            if (!isNeeded(entry.distance2))
-                continue;
             const Node& node = nodes_[entry.node];
+            if (!isNeeded(entry.distance2, node.box))
+                continue;
             for (uint32_t i = node.first; i < node.first + node.count; ++i)
                 visit(i);
             if (node.count > 0)
@@ -93,7 +112,6 @@ public:
         }
     }
 
-private:
     /// Leaf with `count` triangles; or inner node with count 0, whose first child follows it and whose second
     /// child is at `second`.
     struct Node

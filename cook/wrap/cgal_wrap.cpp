@@ -5,9 +5,6 @@
 
 #include "cook/wrap/thread_time.h"
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Side_of_triangle_mesh.h>
 #include <CGAL/Surface_mesh.h>
@@ -15,6 +12,8 @@
 #include <CGAL/box_intersection_d.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <numeric>
 #include <tuple>
 
@@ -23,6 +22,8 @@ namespace hearth::wrap
 
 namespace
 {
+
+namespace aw3 = CGAL::Alpha_wraps_3::internal;
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
@@ -33,6 +34,11 @@ using Mesh = CGAL::Surface_mesh<Point>;
 Point makePoint(Float3 position)
 {
     return {double{position.x}, double{position.y}, double{position.z}};
+}
+
+Double3 makeDouble3(const Point& point)
+{
+    return {point.x(), point.y(), point.z()};
 }
 
 Triangle makeTriangle(const Surface& surface, size_t triangle)
@@ -64,7 +70,7 @@ private:
 };
 
 /// Ends a wrap that takes too long: CGAL calls it at every step.
-struct TimeLimit : CGAL::Alpha_wraps_3::internal::Wrapping_default_visitor
+struct TimeLimit : aw3::Wrapping_default_visitor
 {
     explicit TimeLimit(double max_seconds) : deadline(max_seconds) {}
 
@@ -75,6 +81,69 @@ struct TimeLimit : CGAL::Alpha_wraps_3::internal::Wrapping_default_visitor
     }
 
     Deadline deadline;
+};
+
+/// Answers what CGAL's wrapper asks of a source, in place of CGAL's Triangle_soup_oracle, whose trees start each
+/// search anew and test boxes exactly: several times faster. Whether a cell touches the source is decided
+/// exactly, as there; distances are in doubles.
+class SourceOracle
+{
+public:
+    using Geom_traits = aw3::Alpha_wrap_AABB_traits<Kernel>; // the name that the wrapper looks for
+    using Ball = Geom_traits::Ball_3;
+
+    explicit SourceOracle(const SourceTree& source) : source_(source) {}
+
+    Geom_traits geom_traits() const { return {}; }
+
+    CGAL::Bbox_3 bbox() const
+    {
+        CGAL::Bbox_3 box;
+        for (const Float3 position : source_.surface().positions)
+            box += makePoint(position).bbox();
+        return box;
+    }
+
+    template <typename Traits>
+    bool do_intersect(const aw3::Tetrahedron_with_outside_info<Traits>& cell) const
+    {
+        const std::array corners{makeDouble3(cell.m_tet[0]), makeDouble3(cell.m_tet[1]),
+                                 makeDouble3(cell.m_tet[2]), makeDouble3(cell.m_tet[3])};
+        const auto touches = geom_traits().do_intersect_3_object();
+        return source_.findTouching(ConvexBody(corners), [&](uint32_t triangle)
+                                    { return touches(cell, makeTriangle(source_.surface(), triangle)); });
+    }
+
+    bool do_intersect(const Ball& ball) const
+    {
+        return source_.isWithin(makeDouble3(ball.boundary().center()), ball.boundary().squared_radius());
+    }
+
+    Point closest_point(const Point& point) const
+    {
+        const Double3 closest = makeDouble3(point) - findNearest(point).offset;
+        return {closest.x, closest.y, closest.z};
+    }
+
+    /// Find the first point of a segment that is at the offset from the source, by CGAL's search.
+    bool first_intersection(const Point& from, const Point& to, Point& found, double offset_m) const
+    {
+        const auto distance = [this](const Point& point) { return std::sqrt(findNearest(point).distance2); };
+        const double precision = 0.01 * offset_m; // CGAL's own
+        return aw3::Offset_intersection<Geom_traits, decltype(distance)>(distance, offset_m, precision, 1)
+            .first_intersection(from, to, found);
+    }
+
+private:
+    SourceTree::Nearest findNearest(const Point& point) const
+    {
+        const SourceTree::Nearest nearest = source_.findNearest(makeDouble3(point), hint_);
+        hint_ = nearest.triangle; // the next point is mostly on the same segment
+        return nearest;
+    }
+
+    const SourceTree& source_;
+    mutable uint32_t hint_ = 0;
 };
 
 /// Collects pairs and keeps the first ones in order: all pairs of a tangle do not fit into memory.
@@ -117,7 +186,7 @@ Surface makeCanonical(const Mesh& mesh)
     for (const auto vertex : mesh.vertices())
     {
         const Point& point = mesh.point(vertex);
-        positions.push_back(narrow({point.x(), point.y(), point.z()}));
+        positions.push_back(narrow(makeDouble3(point)));
     }
     std::vector<uint32_t> order(positions.size()), rank(positions.size());
     std::iota(order.begin(), order.end(), 0u);
@@ -212,20 +281,16 @@ bool intersect(const Surface& surface, uint32_t a, uint32_t b)
 
 } // namespace
 
-std::optional<Surface> computeAlphaWrap(const Surface& source, double alpha_m, double offset_m,
+std::optional<Surface> computeAlphaWrap(const SourceTree& source, double alpha_m, double offset_m,
                                         double max_seconds)
 {
-    std::vector<Point> points;
-    std::transform(source.positions.begin(), source.positions.end(), std::back_inserter(points), makePoint);
-    std::vector<std::array<size_t, 3>> faces;
-    for (size_t i = 0; i < source.indices.size(); i += 3)
-        faces.push_back({source.indices[i], source.indices[i + 1], source.indices[i + 2]});
+    const SourceOracle oracle(source);
     TimeLimit limit(max_seconds);
     Mesh wrap;
     try
     {
-        CGAL::alpha_wrap_3(points, faces, alpha_m, offset_m, wrap, CGAL::parameters::default_values(),
-                           CGAL::parameters::visitor(limit));
+        aw3::Alpha_wrap_3<SourceOracle> wrapper(oracle);
+        wrapper(alpha_m, offset_m, wrap, CGAL::parameters::visitor(limit));
     }
     catch (const TimeIsUp&)
     {
@@ -274,38 +339,18 @@ bool containsPoints(const Surface& surface, std::span<const Float3> points)
                        [&](Float3 point) { return side(makePoint(point)) == CGAL::ON_BOUNDED_SIDE; });
 }
 
-struct TriangleTree::State
-{
-    using Triangles = std::vector<Triangle>;
-    using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
-    using Tree = CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>>;
-
-    Triangles triangles;
-    Tree tree;
-};
-
-TriangleTree::TriangleTree(const Surface& surface) : state_(std::make_unique<State>())
+bool touchesSource(const Surface& surface, const SourceTree& source)
 {
     for (size_t i = 0; i < surface.triangleCount(); ++i)
-        state_->triangles.push_back(makeTriangle(surface, i));
-    state_->tree.insert(state_->triangles.begin(), state_->triangles.end());
-    state_->tree.build();
-}
-
-TriangleTree::~TriangleTree() = default;
-
-bool TriangleTree::touches(const Surface& other) const
-{
-    for (size_t i = 0; i < other.triangleCount(); ++i)
-        if (state_->tree.do_intersect(makeTriangle(other, i)))
+    {
+        const std::array<Float3, 3> c = surface.corners(i);
+        const Triangle triangle = makeTriangle(surface, i);
+        if (source.findTouching(
+                ConvexBody(std::array{widen(c[0]), widen(c[1]), widen(c[2])}), [&](uint32_t other)
+                { return CGAL::do_intersect(triangle, makeTriangle(source.surface(), other)); }))
             return true;
+    }
     return false;
-}
-
-uint32_t TriangleTree::findNearest(Double3 point) const
-{
-    const auto nearest = state_->tree.closest_point_and_primitive(Point(point.x, point.y, point.z));
-    return static_cast<uint32_t>(nearest.second - state_->triangles.cbegin());
 }
 
 } // namespace hearth::wrap

@@ -3,31 +3,15 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "formats/base/double3.h"
+#include "cook/wrap/source_tree.h"
+#include "cook/wrap/surface.h"
 
-#include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace hearth::wrap
 {
-
-/// Triangles over points that they share.
-struct Surface
-{
-    std::vector<Float3> positions;
-    std::vector<uint32_t> indices; ///< three for each triangle
-
-    size_t triangleCount() const { return indices.size() / 3; }
-    std::array<Float3, 3> corners(size_t triangle) const
-    {
-        return {positions[indices[3 * triangle]], positions[indices[3 * triangle + 1]],
-                positions[indices[3 * triangle + 2]]};
-    }
-};
 
 struct TrianglePair
 {
@@ -40,9 +24,9 @@ struct TrianglePair
 /// Compute the alpha wrap of triangles: a closed surface around them that no ball of radius alpha, coming
 /// from outside, can get through, about `offset` in front of them. Oriented outwards, in a canonical order of
 /// vertices and triangles. Its vertices are rounded to floats, so whoever needs its guarantees checks them.
-/// source   at least one triangle; each has an area
+/// source   each triangle has an area
 /// returns  nullopt if it takes more than max_seconds of this thread's processor time
-std::optional<Surface> computeAlphaWrap(const Surface& source, double alpha_m, double offset_m,
+std::optional<Surface> computeAlphaWrap(const SourceTree& source, double alpha_m, double offset_m,
                                         double max_seconds);
 
 struct SelfIntersections
@@ -61,21 +45,7 @@ std::optional<SelfIntersections> findSelfIntersections(const Surface& surface, s
 /// True if all points lie inside a closed surface that does not intersect itself.
 bool containsPoints(const Surface& surface, std::span<const Float3> points);
 
-/// Search tree over triangles, each with an area.
-class TriangleTree
-{
-public:
-    explicit TriangleTree(const Surface& surface);
-    ~TriangleTree();
-
-    /// True if a triangle of `other` touches one of these.
-    bool touches(const Surface& other) const;
-    /// Return the triangle that is nearest to a point.
-    uint32_t findNearest(Double3 point) const;
-
-private:
-    struct State;
-    std::unique_ptr<State> state_;
-};
+/// True if a triangle of the surface touches one of the source.
+bool touchesSource(const Surface& surface, const SourceTree& source);
 
 } // namespace hearth::wrap

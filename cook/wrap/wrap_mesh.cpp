@@ -3,6 +3,7 @@
 
 #include "cook/mesh/triangles.h"
 #include "cook/mesh/weld.h"
+#include "formats/base/disjoint_sets.h"
 
 #include <algorithm>
 #include <array>
@@ -74,8 +75,22 @@ bool hasCollapsedTriangle(const Surface& surface)
     return false;
 }
 
+/// Return a point of each piece of a surface: a wrap that touches no triangle has all of a piece on one side.
+std::vector<Float3> findPieces(const Surface& surface)
+{
+    DisjointSets pieces(surface.positions.size());
+    for (size_t i = 0; i < surface.indices.size(); i += 3)
+        for (size_t k = 1; k < 3; ++k)
+            pieces.unite(surface.indices[i], surface.indices[i + k]);
+    std::vector<Float3> points;
+    for (uint32_t point = 0; point < surface.positions.size(); ++point)
+        if (pieces.find(point) == point)
+            points.push_back(surface.positions[point]);
+    return points;
+}
+
 /// Return the guarantee that a wrap breaks once it is rounded; "" if it holds all.
-std::string findFault(const Surface& wrap, const Surface& source, const TriangleTree& tree)
+std::string findFault(const Surface& wrap, const SourceTree& source)
 {
     if (wrap.indices.empty())
         return "it is no surface";
@@ -85,25 +100,27 @@ std::string findFault(const Surface& wrap, const Surface& source, const Triangle
     // without a limit of time: the wrap had one, and took longer
     if (findSelfIntersections(wrap, 1, std::numeric_limits<double>::infinity())->count > 0)
         return "it intersects itself";
-    if (tree.touches(wrap))
+    if (touchesSource(wrap, source))
         return "it touches the source";
-    if (!containsPoints(wrap, source.positions))
+    if (!containsPoints(wrap, findPieces(source.surface())))
         return "it leaves vertices of the source outside";
     return "";
 }
 
-mesh::SourceMesh makeMesh(Surface wrap, const mesh::SourceMesh& source, const TriangleTree& tree,
+mesh::SourceMesh makeMesh(Surface wrap, const mesh::SourceMesh& source, const SourceTree& tree,
                           const std::vector<uint32_t>& numbers)
 {
     mesh::SourceMesh mesh;
     mesh.name = source.name;
     mesh.face_count = static_cast<uint32_t>(wrap.triangleCount());
     mesh.source_vertex_count = static_cast<uint32_t>(wrap.positions.size());
+    uint32_t nearest = 0;
     for (size_t i = 0; i < wrap.triangleCount(); ++i)
     {
         const std::array<Float3, 3> corners = wrap.corners(i);
         const Double3 middle = (widen(corners[0]) + widen(corners[1]) + widen(corners[2])) * (1 / 3.);
-        mesh.triangle_materials.push_back(source.triangle_materials[numbers[tree.findNearest(middle)]]);
+        nearest = tree.findNearest(middle, nearest).triangle;
+        mesh.triangle_materials.push_back(source.triangle_materials[numbers[nearest]]);
     }
     mesh.positions = std::move(wrap.positions);
     mesh.indices = std::move(wrap.indices);
@@ -124,17 +141,18 @@ Result<mesh::SourceMesh> wrapSurface(const mesh::SourceMesh& source, const WrapO
         return empty;
     }
     const double size = diagonal(surface);
-    const TriangleTree tree(surface);
+    // longer triangles in several boxes: CGAL's own choice
+    const SourceTree tree(surface, 3 * options.alpha * size);
     double offset = options.offset * size;
     std::string fault;
     for (int i = 0; i < kMaxTries; ++i, offset *= kOffsetGrowth)
     {
         std::optional<Surface> wrap =
-            computeAlphaWrap(surface, options.alpha * size, offset, options.max_seconds);
+            computeAlphaWrap(tree, options.alpha * size, offset, options.max_seconds);
         if (!wrap)
             return fail(
                 fmt::format("its wrap takes more than {:g} s of processor time", options.max_seconds));
-        fault = findFault(*wrap, surface, tree);
+        fault = findFault(*wrap, tree);
         if (fault.empty())
             return makeMesh(*std::move(wrap), source, tree, numbers);
     }

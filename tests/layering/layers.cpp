@@ -99,6 +99,9 @@ const std::vector<Layer>& layers()
          {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/mesh", "cook/proxy/surface",
           "cook/proxy/clean", "cook/proxy/convex"}},
 
+        {"cook/wrap",
+         {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/mesh", "cook/clusters/surface"}},
+
         {"cook/bricks/grid", {"formats"}},
         {"cook/bricks/voxels", {"formats", "cook/json", "cook/tools", "cook/bricks/grid"}},
         {"cook/bricks/light",

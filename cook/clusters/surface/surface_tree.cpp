@@ -13,18 +13,17 @@ namespace hearth::clusters
 namespace
 {
 
-double edgeDistance2(Double3 point, Double3 a, Double3 b)
+Double3 offsetFromEdge(Double3 point, Double3 a, Double3 b)
 {
     const Double3 edge = b - a;
     const double length2 = dot(edge, edge);
     const double t = length2 > 0 ? std::clamp(dot(point - a, edge) / length2, 0.0, 1.0) : 0.0;
-    const Double3 away = point - (a + edge * t);
-    return dot(away, away);
+    return point - (a + edge * t);
 }
 
 } // namespace
 
-double distance2(Double3 point, const Corners3& triangle)
+Double3 offsetFromTriangle(Double3 point, const Corners3& triangle)
 {
     const Double3 ab = triangle[1] - triangle[0];
     const Double3 ac = triangle[2] - triangle[0];
@@ -38,14 +37,18 @@ double distance2(Double3 point, const Corners3& triangle)
         const double v = (ac_ac * ab_ap - ab_ac * ac_ap) / det;
         const double w = (ab_ab * ac_ap - ab_ac * ab_ap) / det;
         if (v >= 0 && w >= 0 && v + w <= 1)
-        {
-            const Double3 away = ap - (ab * v + ac * w);
-            return dot(away, away);
-        }
+            return ap - (ab * v + ac * w);
     }
-    return std::min({edgeDistance2(point, triangle[0], triangle[1]),
-                     edgeDistance2(point, triangle[1], triangle[2]),
-                     edgeDistance2(point, triangle[2], triangle[0])});
+    return std::min({offsetFromEdge(point, triangle[0], triangle[1]),
+                     offsetFromEdge(point, triangle[1], triangle[2]),
+                     offsetFromEdge(point, triangle[2], triangle[0])},
+                    [](Double3 a, Double3 b) { return dot(a, a) < dot(b, b); });
+}
+
+double distance2(Double3 point, const Corners3& triangle)
+{
+    const Double3 offset = offsetFromTriangle(point, triangle);
+    return dot(offset, offset);
 }
 
 SurfaceTree::SurfaceTree(const SurfaceView& surface)

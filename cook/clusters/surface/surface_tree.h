@@ -15,8 +15,11 @@ namespace hearth::clusters
 /// coordinates.
 using Corners3 = std::array<Double3, 3>;
 
-/// Return the squared distance of a point to a triangle, needles included. Never too small except for
-/// rounding.
+/// Return the vector from the closest point of a triangle, needles included, to a point. Never too short except
+/// for rounding.
+Double3 offsetFromTriangle(Double3 point, const Corners3& triangle);
+
+/// Return the squared length of offsetFromTriangle.
 double distance2(Double3 point, const Corners3& triangle);
 
 /// Bounding volume hierarchy over the triangles of a surface.

@@ -9,7 +9,9 @@
 #include "tests/support/shapes.h"
 #include "tests/support/surfaces/surface_distance.h"
 
+#include <cmath>
 #include <cstdio>
+#include <numbers>
 
 namespace
 {
@@ -36,6 +38,31 @@ SourceMesh makeKit()
         shapes::append(kit, rock);
     }
     return kit;
+}
+
+/// A torus whose outer half has square treads, two triangles wide: the source that took longest.
+SourceMesh makeTyre()
+{
+    constexpr uint32_t kAround = 1000, kAcross = 100; // rings, and quads of a ring
+    SourceMesh tyre;
+    for (uint32_t ring = 0; ring < kAround; ++ring)
+        for (uint32_t k = 0; k < kAcross; ++k)
+        {
+            const double along = 2 * std::numbers::pi * ring / kAround;
+            const double across = 2 * std::numbers::pi * k / kAcross;
+            const bool is_tread = std::cos(across) > 0 && ring / 4 % 2 == 0 && k / 4 % 2 == 0;
+            const double radius = is_tread ? 0.4 : 0.3;
+            const double from_axis = 1 + radius * std::cos(across);
+            tyre.positions.push_back(narrow(
+                {from_axis * std::cos(along), radius * std::sin(across), from_axis * std::sin(along)}));
+            const auto vertex = [&](uint32_t rings, uint32_t steps)
+            { return (ring + rings) % kAround * kAcross + (k + steps) % kAcross; };
+            for (const uint32_t corner :
+                 {vertex(0, 0), vertex(0, 1), vertex(1, 1), vertex(0, 0), vertex(1, 1), vertex(1, 0)})
+                tyre.indices.push_back(corner);
+        }
+    tyre.triangle_materials.assign(tyre.triangleCount(), 0);
+    return tyre;
 }
 
 /// Wrap a mesh and print a line of figures.
@@ -89,7 +116,8 @@ Status measureShapes(const wrap::WrapOptions& options, bench::Judgement& judgeme
 {
     for (const SourceMesh& mesh :
          {named(shapes::rock(129, 0.3f), "rock"), named(shapes::blocks(129), "blocks"),
-          named(shapes::terrain(316), "terrain"), named(makeKit(), "20 rocks in each other")})
+          named(shapes::terrain(316), "terrain"), named(makeKit(), "20 rocks in each other"),
+          named(shapes::grid(316), "flat grid"), named(makeTyre(), "tyre")})
     {
         HEARTH_ASSIGN_OR_RETURN(const double seconds, measure(mesh, options, "bench", 0));
         judgement.record("s of processor for 200,000 triangles", seconds);
