@@ -155,6 +155,7 @@ inline constexpr std::array kAims = {
     Aim{"proxies", "proxies that are no manifold, or not closed as stored", Bound::at_most, 0},
     Aim{"proxies", "distances beyond their stored bound", Bound::at_most, 0},
     Aim{"proxies", "proxies with a vertex that is not bound", Bound::at_most, 0},
+    Aim{"proxies", "largest stored bound / certified distance", Bound::at_most, 1.15},
     Aim{"kills", "packs, caches or folders that a kill broke", Bound::at_most, 0},
     Aim{"kills", "kills that caught a cook at work", Bound::at_least, 50},
     Aim{"marchLanesFromFaces", "items_per_second", Bound::at_least, 5e6},

@@ -8,6 +8,8 @@
 
 #include <SDL.h>
 #include <array>
+#include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
 
 namespace hearth::test
@@ -25,15 +27,34 @@ protected:
 
     void open(const roundtrip::CookedSample& sample, const viewer::AnimationSettings& animation)
     {
+        viewer::ViewOptions options = makeOptions();
+        options.animation = animation;
         viewer_.reset(); // one at a time
+        take(viewer::Viewer::create(options, sample.pack()));
+    }
+
+    /// Open a file.
+    void open(const std::string& pack)
+    {
+        viewer::ViewOptions options = makeOptions();
+        options.pack = pack;
+        viewer_.reset();
+        take(viewer::Viewer::create(options));
+    }
+
+    static viewer::ViewOptions makeOptions()
+    {
         viewer::ViewOptions options;
         options.width = 320;
         options.height = 240;
         options.validate = true;
         options.shadows.options.max_maps = 4;
         options.shadows.fit_maps = false;
-        options.animation = animation;
-        Result<std::unique_ptr<viewer::Viewer>> viewer = viewer::Viewer::create(options, sample.pack());
+        return options;
+    }
+
+    void take(Result<std::unique_ptr<viewer::Viewer>> viewer)
+    {
         ASSERT_TRUE(viewer.ok()) << formatMessage(viewer.error());
         viewer_ = std::move(viewer).value();
         settings().panel = false; // the mouse position has no effect then
@@ -256,6 +277,52 @@ TEST_F(WindowTest, takesAnotherBudgetAndKeepsTheSceneWhereThereIsNone)
     EXPECT_EQ(viewer_->scene().scene().stream, nullptr);
 }
 
+TEST_F(WindowTest, showsEachVersionOfItsFile)
+{
+    const Sandbox folder;
+    const std::string file = folder / "shown.hearth";
+    const auto replace = [&](const std::string& by)
+    {
+        std::filesystem::copy_file(by, file + ".new", std::filesystem::copy_options::overwrite_existing);
+        std::filesystem::rename(file + ".new", file);
+        EXPECT_EQ(play(2), 2u);
+    };
+    const auto picture = [&]
+    {
+        EXPECT_TRUE(viewer_->saveScreenshot(folder / "shown.png").ok());
+        return reference::readPng(folder / "shown.png").value().rgb;
+    };
+    const std::string& other = roundtrip::cookedSample({"character", 20000}).packPath();
+    std::filesystem::copy_file(sample_.packPath(), file);
+    open(file);
+    const shared::Camera seen_from = camera();
+    const auto first = picture();
+
+    replace(other);
+    EXPECT_EQ(viewer_->problem(), "");
+    EXPECT_EQ(viewer_->pack().clips.front(), "walk");
+    EXPECT_EQ(camera().position, seen_from.position) << "one keeps looking at what one changes";
+    settings().camera = 0;
+    play(1);
+    const auto second = picture();
+    EXPECT_NE(second, first);
+
+    std::ofstream(folder / "broken") << "no pack";
+    replace(folder / "broken");
+    EXPECT_NE(viewer_->problem(), "");
+    EXPECT_EQ(picture(), second) << "the last version stays";
+    std::filesystem::remove(file);
+    EXPECT_EQ(play(2), 2u);
+    replace(sample_.packPath());
+    EXPECT_EQ(viewer_->problem(), "");
+    settings().camera = 0;
+    play(1);
+    EXPECT_EQ(picture(), first);
+
+    open(other);
+    EXPECT_EQ(picture(), second);
+}
+
 TEST_F(WindowTest, countsWhatTheTestsLeaveOut)
 {
     settings().count_culling = true;
@@ -274,33 +341,33 @@ TEST_F(WindowTest, countsWhatTheTestsLeaveOut)
 TEST_F(WindowTest, playsTheClipsOfACharacter)
 {
     open(roundtrip::cookedSample({"character", 20000}), {.clip = "walk"});
-    const double begin = viewer_->playback().clip()->seconds;
+    const double begin = viewer_->pack().playback.clip()->seconds;
     play(12);
-    EXPECT_NEAR(viewer_->playback().clip()->seconds - begin, 0.2, 1e-9);
+    EXPECT_NEAR(viewer_->pack().playback.clip()->seconds - begin, 0.2, 1e-9);
     hold(SDL_SCANCODE_SPACE, 1);
-    const double still = viewer_->playback().clip()->seconds;
+    const double still = viewer_->pack().playback.clip()->seconds;
     play(5);
-    EXPECT_EQ(viewer_->playback().clip()->seconds, still);
+    EXPECT_EQ(viewer_->pack().playback.clip()->seconds, still);
     hold(SDL_SCANCODE_SPACE, 1);
 
     settings().panel = true;
     settings().playback.clip = 1;
     EXPECT_EQ(play(5), 5u);
-    ASSERT_TRUE(viewer_->playback().fadedClip());
-    EXPECT_EQ(viewer_->playback().fadedClip()->animation, 0u);
+    ASSERT_TRUE(viewer_->pack().playback.fadedClip());
+    EXPECT_EQ(viewer_->pack().playback.fadedClip()->animation, 0u);
     settings().memory_budget = 8u << 20; // the scene is reloaded, posed by the clip at once
     EXPECT_EQ(play(20), 20u);
-    EXPECT_FALSE(viewer_->playback().fadedClip());
+    EXPECT_FALSE(viewer_->pack().playback.fadedClip());
     settings().playback.clip.reset();
     EXPECT_EQ(play(3), 3u);
-    EXPECT_FALSE(viewer_->playback().clip());
+    EXPECT_FALSE(viewer_->pack().playback.clip());
 }
 
 TEST_F(WindowTest, standsStillAtTheTimeThatIsGiven)
 {
     open(roundtrip::cookedSample({"character", 20000}), {.clip = "1", .seconds = 0.75});
     play(5);
-    EXPECT_EQ(viewer_->playback().clip()->seconds, 0.75);
+    EXPECT_EQ(viewer_->pack().playback.clip()->seconds, 0.75);
     EXPECT_FALSE(settings().playback.playing);
 }
 

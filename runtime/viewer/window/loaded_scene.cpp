@@ -9,8 +9,7 @@ namespace hearth::viewer
 {
 
 Result<std::unique_ptr<LoadedScene>> LoadedScene::load(VulkanHost& host, gpu::Renderer& renderer,
-                                                       const formats::PackView& pack,
-                                                       uint64_t memory_budget,
+                                                       const formats::PackView& pack, uint64_t memory_budget,
                                                        const gpu::ShadowOptions& shadows)
 {
     std::unique_ptr<LoadedScene> loaded(new LoadedScene);

@@ -26,7 +26,7 @@ public:
     const gpu::Scene& scene() const { return *scene_; }
     const gpu::CullStatisticsPass& statistics() const { return *statistics_; }
     uint64_t memoryBudget() const { return memory_budget_; } ///< as requested
-    VkDeviceSize bytes() const;                                  ///< on the device
+    VkDeviceSize bytes() const;                              ///< on the device
 
 private:
     LoadedScene() = default;

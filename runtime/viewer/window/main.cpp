@@ -1,7 +1,6 @@
 // hearth-view: shows a pack in a window.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/base/program.h"
-#include "runtime/pack/pack.h"
 #include "runtime/viewer/window/options.h"
 #include "runtime/viewer/window/viewer.h"
 
@@ -60,8 +59,7 @@ Status show(Viewer& viewer, const ViewOptions& options)
 
 Status view(const ViewOptions& options)
 {
-    HEARTH_ASSIGN_OR_RETURN(const pack::Pack pack, pack::Pack::open(options.pack));
-    HEARTH_ASSIGN_OR_RETURN(const std::unique_ptr<Viewer> viewer, Viewer::create(options, pack.view()));
+    HEARTH_ASSIGN_OR_RETURN(const std::unique_ptr<Viewer> viewer, Viewer::create(options));
     const VulkanHost& host = viewer->host();
     if (options.verbose)
         std::fprintf(stderr, "drawing with %s%s\n", host.deviceName().c_str(),

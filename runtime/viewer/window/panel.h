@@ -46,7 +46,7 @@ struct PanelData
     std::span<const AssetView> assets;
     const Playback& playback;
     std::span<const std::string> clips; ///< names of the pack's animations
-    const std::string& problem;         ///< reason why the last budget was rejected; or empty
+    const std::string& problem;         ///< as of Viewer::problem
 };
 
 class Panel

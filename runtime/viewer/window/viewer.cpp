@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/window/viewer.h"
 
-#include "runtime/viewer/camera_fit.h"
+#include "formats/gpu_shared/debug_views.h"
 #include "runtime/viewer/camera_path.h"
 #include "runtime/viewer/file_output.h"
 #include "runtime/viewer/window/window_commands.h"
@@ -18,45 +18,6 @@ namespace
 
 constexpr double kMaxStep = 0.1; // seconds: limits the jump after a long pause
 
-/// Fly speed in metres per second that reaches most of the scene in a few seconds: a quarter of the median
-/// distance of the instances. Their bounds would include a sky dome.
-float flySpeed(const formats::PackView& pack, Float3 eye)
-{
-    std::vector<float> distances;
-    for (const formats::InstanceRecord& instance : pack.instances())
-    {
-        const formats::MeshRecord& mesh = pack.meshes()[instance.mesh];
-        const Float3 center = (mesh.box_min + mesh.box_max) * 0.5f;
-        distances.push_back(length(transformPoint(instance.world_from_object, center) - eye));
-    }
-    if (distances.empty())
-        return 1;
-    const auto median = distances.begin() + static_cast<ptrdiff_t>(distances.size() / 2);
-    std::nth_element(distances.begin(), median, distances.end());
-    return std::max(*median / 4, 1e-4f);
-}
-
-std::vector<NamedCamera> listCameras(const formats::PackView& pack, const pack::PosePlayer& player,
-                                     const shared::Camera& start, float aspect)
-{
-    std::vector<NamedCamera> cameras{{"start", start}, {"whole scene", fitCamera(pack, player, aspect)}};
-    for (uint32_t i = 0; i < pack.cameras().size(); ++i)
-        if (pack.cameras()[i].type == static_cast<uint32_t>(formats::CameraType::perspective))
-            cameras.push_back({"scene camera " + std::to_string(i), sceneCamera(pack, i)});
-    return cameras;
-}
-
-std::vector<std::string> clipNames(const formats::PackView& pack)
-{
-    std::vector<std::string> names;
-    for (const formats::AnimationRecord& animation : pack.animations())
-    {
-        const std::string_view name = pack.text(animation.name);
-        names.push_back(name.empty() ? std::to_string(names.size()) : std::string(name));
-    }
-    return names;
-}
-
 /// The clip plays from its start, unless the command line sets a time.
 PlaybackSettings playbackSettings(const AnimationSettings& options, const Playback& playback)
 {
@@ -67,70 +28,53 @@ PlaybackSettings playbackSettings(const AnimationSettings& options, const Playba
     return settings;
 }
 
-/// Fit the shadow options to flights between these cameras.
-gpu::ShadowOptions fitShadowOptions(const ShadowSettings& settings, const formats::PackView& pack,
-                                    std::span<const NamedCamera> named)
-{
-    std::vector<shared::Camera> cameras;
-    for (const NamedCamera& camera : named)
-        cameras.push_back(camera.camera);
-    return fitShadows(settings, pack, cameras);
-}
-
-uint64_t geometryBytes(const formats::PackView& pack)
-{
-    uint64_t bytes = 0;
-    for (const formats::PageRecord& page : pack.pages())
-        bytes += page.size;
-    return bytes;
-}
-
 } // namespace
 
-Viewer::Viewer(const ViewOptions& options, const formats::PackView& pack, Playback playback,
-               const pack::PosePlayer& player, const shared::Camera& start)
-    : pack_(pack),
+Viewer::Viewer(const ViewOptions& options, std::unique_ptr<ShownPack> shown)
+    : options_(options),
+      shown_(std::move(shown)),
       settings_{.frame = options.settings,
-                .playback = playbackSettings(options.animation, playback),
-                .memory_budget = options.memory_budget},
-      panel_(settings_, geometryBytes(pack)),
-      camera_(start, flySpeed(pack, start.position)),
-      clips_(clipNames(pack)),
-      playback_(std::move(playback)),
-      player_(pack),
-      light_player_(pack),
-      cameras_(listCameras(pack, player, start,
-                           static_cast<float>(options.width) / static_cast<float>(options.height))),
-      assets_(makeAssetViews(pack, player,
-                             static_cast<float>(options.width) / static_cast<float>(options.height))),
-      shadows_(fitShadowOptions(options.shadows, pack, cameras_)),
+                .playback = playbackSettings(options.animation, shown_->playback),
+                .memory_budget = options.memory_budget,
+                .lamps = shown_->lamps,
+                .daylight = options.daylight},
+      panel_(settings_, shown_->geometryBytes()),
+      camera_(shown_->cameras[0].camera, flySpeed(shown_->view(), shown_->cameras[0].camera.position)),
       shadow_spheres_(options.shadows.spheres)
 {
 }
 
 Result<std::unique_ptr<Viewer>> Viewer::create(const ViewOptions& options, const formats::PackView& pack)
 {
-    HEARTH_TRY(checkPack(options, pack));
-    HEARTH_ASSIGN_OR_RETURN(const std::optional<pack::ClipTime> clip, findClip(options.animation, pack));
-    Playback playback(clipDurations(pack), clip, options.animation.seconds.value_or(0));
-    pack::PosePlayer player(pack);
-    playback.pose(player);
-    HEARTH_ASSIGN_OR_RETURN(const shared::Camera start, chooseCamera(options, pack, player));
-    std::unique_ptr<Viewer> viewer(new Viewer(options, pack, std::move(playback), player, start));
-    HEARTH_ASSIGN_OR_RETURN(viewer->settings_.lamps, listLampControls(pack, options.lamps));
-    viewer->settings_.daylight = options.daylight;
-    HEARTH_TRY(viewer->open(options));
+    HEARTH_ASSIGN_OR_RETURN(std::unique_ptr<ShownPack> shown, ShownPack::make(options, pack));
+    return create(options, std::move(shown));
+}
+
+Result<std::unique_ptr<Viewer>> Viewer::create(const ViewOptions& options)
+{
+    // before it is opened: a change from here on is seen
+    const std::optional<FileVersion> version = readFileVersion(options.pack);
+    HEARTH_ASSIGN_OR_RETURN(std::unique_ptr<ShownPack> shown, ShownPack::open(options));
+    HEARTH_ASSIGN_OR_RETURN(std::unique_ptr<Viewer> viewer, create(options, std::move(shown)));
+    viewer->file_version_ = version;
     return viewer;
 }
 
-Status Viewer::open(const ViewOptions& options)
+Result<std::unique_ptr<Viewer>> Viewer::create(const ViewOptions& options, std::unique_ptr<ShownPack> shown)
 {
-    HEARTH_ASSIGN_OR_RETURN(window_,
-                            SdlWindow::create("Hearth: " + pack_.name(), options.width, options.height));
+    std::unique_ptr<Viewer> viewer(new Viewer(options, std::move(shown)));
+    HEARTH_TRY(viewer->open());
+    return viewer;
+}
+
+Status Viewer::open()
+{
+    HEARTH_ASSIGN_OR_RETURN(
+        window_, SdlWindow::create("Hearth: " + shown_->view().name(), options_.width, options_.height));
     const HostWindow host_window = window_->hostWindow();
     HEARTH_ASSIGN_OR_RETURN(
         host_, VulkanHost::create(
-                   {.device_name = options.device, .validate = options.validate, .window = &host_window}));
+                   {.device_name = options_.device, .validate = options_.validate, .window = &host_window}));
     // the panel offers the light methods of the path that the window begins with, and of simpler ones
     HEARTH_ASSIGN_OR_RETURN(renderer_,
                             gpu::Renderer::create(host_->description(), rendererOptions(settings_.frame)));
@@ -141,8 +85,8 @@ Status Viewer::open(const ViewOptions& options)
     HEARTH_ASSIGN_OR_RETURN(frames_, FrameRing::create(*host_, device, vk_));
     HEARTH_ASSIGN_OR_RETURN(meter_, FrameMeter::create(*host_, device));
     HEARTH_ASSIGN_OR_RETURN(imgui_, ImguiLayer::create(*window_, *host_, device, *swapchain_));
-    HEARTH_ASSIGN_OR_RETURN(scene_,
-                            LoadedScene::load(*host_, *renderer_, pack_, settings_.memory_budget, shadows_));
+    HEARTH_ASSIGN_OR_RETURN(scene_, LoadedScene::load(*host_, *renderer_, shown_->view(),
+                                                      settings_.memory_budget, shown_->shadows));
     return success();
 }
 
@@ -156,8 +100,9 @@ Result<bool> Viewer::step(double seconds)
 {
     frame_seconds_ = seconds;
     handleEvents();
+    HEARTH_TRY(reloadIfReplaced());
     controls_.fly(camera_, static_cast<float>(std::clamp(seconds, 0.0, kMaxStep)));
-    playback_.advance(settings_.playback, std::max(seconds, 0.0));
+    shown_->playback.advance(settings_.playback, std::max(seconds, 0.0));
     HEARTH_TRY(applySettings());
     if (resized_ && !minimized_)
         HEARTH_TRY(resize());
@@ -234,7 +179,7 @@ void Viewer::handleKey(int32_t key)
 Status Viewer::applySettings()
 {
     if (settings_.camera)
-        camera_ = FlyCamera(cameras_[*settings_.camera].camera, camera_.speed());
+        camera_ = FlyCamera(shown_->cameras[*settings_.camera].camera, camera_.speed());
     settings_.camera.reset();
     lookAtAsset();
     HEARTH_TRY(supportSettings());
@@ -245,7 +190,7 @@ Status Viewer::applySettings()
         return success();
     // the present scene stays until the new one is ready
     Result<std::unique_ptr<LoadedScene>> scene =
-        LoadedScene::load(*host_, renderer(), pack_, settings_.memory_budget, shadows_);
+        LoadedScene::load(*host_, renderer(), shown_->view(), settings_.memory_budget, shown_->shadows);
     problem_ = scene.ok() ? "" : formatMessage(scene.error());
     if (!scene.ok())
     {
@@ -255,18 +200,91 @@ Status Viewer::applySettings()
     return show(std::move(scene).value());
 }
 
+/// Show the pack anew once its file is another one. A file that cannot be shown is reported, and the pack
+/// stays.
+Status Viewer::reloadIfReplaced()
+{
+    const std::optional<FileVersion> version = readFileVersion(options_.pack);
+    if (!file_version_ || !version || version == file_version_)
+        return success();
+    file_version_ = version;
+    const auto load = [&](std::unique_ptr<ShownPack>& pack) -> Result<std::unique_ptr<LoadedScene>>
+    {
+        HEARTH_ASSIGN_OR_RETURN(pack, ShownPack::open(options_));
+        return LoadedScene::load(*host_, renderer(), pack->view(), settings_.memory_budget, pack->shadows);
+    };
+    std::unique_ptr<ShownPack> pack;
+    Result<std::unique_ptr<LoadedScene>> scene = load(pack);
+    problem_ = scene.ok() ? "" : formatMessage(scene.error());
+    if (!scene.ok())
+    {
+        std::fprintf(stderr, "%s\n", problem_.c_str());
+        return success();
+    }
+    keepChoices(*pack);
+    HEARTH_TRY(show(std::move(scene).value(), std::move(pack)));
+    panel_ = Panel(settings_, shown_->geometryBytes());
+    resized_ = true; // targets have what the scene needs
+    return success();
+}
+
+/// Take what was chosen over to another version of the pack, by names.
+void Viewer::keepChoices(ShownPack& pack)
+{
+    const auto findIndex = [](const auto& list, const auto& same) -> std::optional<size_t>
+    {
+        const auto found = std::ranges::find_if(list, same);
+        return found == list.end() ? std::nullopt : std::optional<size_t>(found - list.begin());
+    };
+    if (const std::optional<pack::ClipTime> clip = shown_->playback.clip())
+    {
+        const std::string& name = shown_->clips[clip->animation];
+        if (const auto number =
+                findIndex(pack.clips, [&](const std::string& other) { return other == name; }))
+        {
+            settings_.playback.clip = static_cast<uint32_t>(*number);
+            pack.playback = Playback(clipDurations(pack.view()),
+                                     pack::ClipTime{static_cast<uint32_t>(*number), clip->seconds},
+                                     shown_->playback.flickerSeconds());
+        }
+        else
+            settings_.playback.clip.reset();
+    }
+    if (asset_)
+    {
+        const std::string& name = shown_->assets.list[*asset_].name;
+        asset_ = findIndex(pack.assets.list, [&](const AssetView& other) { return other.name == name; });
+        settings_.asset = asset_;
+    }
+    for (LampControl& lamp : pack.lamps)
+        if (const auto same = std::ranges::find(settings_.lamps, lamp.lamp.name,
+                                                [](const LampControl& other) { return other.lamp.name; });
+            same != settings_.lamps.end())
+        {
+            lamp.brightness = same->brightness;
+            lamp.color = same->color;
+        }
+    settings_.lamps = pack.lamps;
+    if (shared::viewNeedsBricks(settings_.frame.view) && pack.view().brickGrid().empty())
+        settings_.frame.view = shared::kViewFinal;
+}
+
 /// Replace the scene.
-Status Viewer::show(std::unique_ptr<LoadedScene> scene)
+/// pack  whose scene it is; null: the same as before
+Status Viewer::show(std::unique_ptr<LoadedScene> scene, std::unique_ptr<ShownPack> pack)
 {
     HEARTH_TRY(frames_->waitForAll());
     scene_ = std::move(scene);
+    if (pack != nullptr)
+        shown_ = std::move(pack);
     light_method_ = gpu::LightMethod::practical;
     HEARTH_TRY(prepareLightMethod());
+    pose_ = FramePose();
     lights_ = FrameLights();
     lamp_weights_ = SceneLampWeights();
     scene_daylight_.reset();
-    if (assets_.stage)
-        assets_.stage->reset();
+    if (shown_->assets.stage)
+        shown_->assets.stage->reset();
     return success();
 }
 
@@ -283,8 +301,9 @@ Status Viewer::supportSettings()
     HEARTH_ASSIGN_OR_RETURN(std::unique_ptr<gpu::Renderer> renderer,
                             gpu::Renderer::create(host_->description(), options));
     HEARTH_TRY(renderer->prepareOverdraw());
-    HEARTH_ASSIGN_OR_RETURN(std::unique_ptr<LoadedScene> scene,
-                            LoadedScene::load(*host_, *renderer, pack_, scene_->memoryBudget(), shadows_));
+    HEARTH_ASSIGN_OR_RETURN(
+        std::unique_ptr<LoadedScene> scene,
+        LoadedScene::load(*host_, *renderer, shown_->view(), scene_->memoryBudget(), shown_->shadows));
     HEARTH_TRY(frames_->waitForAll());
     targets_.reset();
     std::swap(extended_renderer_, renderer); // the one before goes after the scene that it drew
@@ -309,22 +328,22 @@ void Viewer::lookAtAsset()
     if (asset_ == settings_.asset)
         return;
     asset_ = settings_.asset;
-    const shared::Camera& camera = asset_ ? assets_.list[*asset_].camera : cameras_[1].camera;
+    const shared::Camera& camera = asset_ ? shown_->assets.list[*asset_].camera : shown_->cameras[1].camera;
     const float speed =
-        asset_ ? length(camera.position - camera.target) / 4 : flySpeed(pack_, camera.position);
+        asset_ ? length(camera.position - camera.target) / 4 : flySpeed(shown_->view(), camera.position);
     camera_ = FlyCamera(camera, speed);
 }
 
 /// Compute the moves, poses and lights of the next frame, for the clip and the shown asset.
 Status Viewer::poseScene()
 {
-    playback_.pose(player_);
-    HEARTH_TRY(pose_.take(player_, scene_->scene()));
+    shown_->playback.pose(shown_->player);
+    HEARTH_TRY(pose_.take(shown_->player, scene_->scene()));
     moves_.assign(pose_.moves().begin(), pose_.moves().end());
     poses_ = pose_.poses();
-    light_player_.update(player_, playback_.flickerSeconds());
+    shown_->light_player.update(shown_->player, shown_->playback.flickerSeconds());
     lights_.clear();
-    HEARTH_TRY(lights_.add(light_player_, scene_->scene()));
+    HEARTH_TRY(lights_.add(shown_->light_player, scene_->scene()));
     HEARTH_TRY(lamp_weights_.update(settings_.lamps, scene_->scene()));
     daylight_change_.reset();
     if (settings_.daylight != scene_daylight_)
@@ -332,11 +351,11 @@ Status Viewer::poseScene()
         HEARTH_ASSIGN_OR_RETURN(daylight_change_, gpu::changeDaylight(scene_->scene(), settings_.daylight));
         scene_daylight_ = settings_.daylight;
     }
-    if (!assets_.stage)
+    if (!shown_->assets.stage)
         return success();
     const size_t part = AssetViews::partIndex(asset_);
-    HEARTH_ASSIGN_OR_RETURN(moves_, assets_.stage->show(scene_->scene(), part, pose_.moves()));
-    poses_ = assets_.stage->poses(player_, part);
+    HEARTH_ASSIGN_OR_RETURN(moves_, shown_->assets.stage->show(scene_->scene(), part, pose_.moves()));
+    poses_ = shown_->assets.stage->poses(shown_->player, part);
     return success();
 }
 
@@ -369,10 +388,10 @@ void Viewer::buildPanel()
                              .scene = *scene_,
                              .target_bytes = targets_->allocatedBytes(),
                              .camera = camera_,
-                             .cameras = cameras_,
-                             .assets = assets_.list,
-                             .playback = playback_,
-                             .clips = clips_,
+                             .cameras = shown_->cameras,
+                             .assets = shown_->assets.list,
+                             .playback = shown_->playback,
+                             .clips = shown_->clips,
                              .problem = problem_});
     imgui_->endFrame();
 }

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "runtime/viewer/window/file_version.h"
 #include "runtime/viewer/window/imgui_layer.h"
 #include "runtime/viewer/window/options.h"
 #include "runtime/viewer/window/panel.h"
+#include "runtime/viewer/window/shown_pack.h"
 
 namespace hearth::viewer
 {
@@ -13,8 +15,11 @@ namespace hearth::viewer
 class Viewer
 {
 public:
+    /// Show the file of the options, and show it anew whenever it is replaced.
+    /// errors: device; those of ShownPack::open and gpu::Renderer::upload.
+    static Result<std::unique_ptr<Viewer>> create(const ViewOptions& options);
     /// pack  outlives the viewer
-    /// errors: device; errors of findClip, chooseCamera and gpu::Renderer::upload.
+    /// errors: device; those of ShownPack::make and gpu::Renderer::upload.
     static Result<std::unique_ptr<Viewer>> create(const ViewOptions& options, const formats::PackView& pack);
     /// Wait for the frames.
     ~Viewer();
@@ -39,19 +44,24 @@ public:
     const FlyCamera& camera() const { return camera_; }
     const FrameStatistics& figures() const { return meter_->figures(); }
     const LoadedScene& scene() const { return *scene_; }
-    const Playback& playback() const { return playback_; }
+    const ShownPack& pack() const { return *shown_; }
+    /// Return why the last budget, or the last version of the file, is not shown; or nothing.
+    const std::string& problem() const { return problem_; }
     VkExtent2D extent() const { return swapchain_->extent(); }
     VulkanHost& host() { return *host_; }
 
 private:
-    Viewer(const ViewOptions& options, const formats::PackView& pack, Playback playback,
-           const pack::PosePlayer& player, const shared::Camera& start);
-    Status open(const ViewOptions& options);
+    Viewer(const ViewOptions& options, std::unique_ptr<ShownPack> shown);
+    static Result<std::unique_ptr<Viewer>> create(const ViewOptions& options,
+                                                  std::unique_ptr<ShownPack> shown);
+    Status open();
+    Status reloadIfReplaced();
+    void keepChoices(ShownPack& pack);
     void handleEvents();
     void handle(const SDL_Event& event);
     void handleKey(int32_t key);
     Status applySettings();
-    Status show(std::unique_ptr<LoadedScene> scene);
+    Status show(std::unique_ptr<LoadedScene> scene, std::unique_ptr<ShownPack> pack = nullptr);
     Status supportSettings();
     Status prepareLightMethod();
     gpu::Renderer& renderer() { return extended_renderer_ != nullptr ? *extended_renderer_ : *renderer_; }
@@ -62,30 +72,24 @@ private:
     Status poseScene();
     void recordFrame(VkCommandBuffer commands, uint32_t image, bool panel, const gpu::Buffer* screenshot);
 
-    const formats::PackView& pack_;
+    const ViewOptions options_;
+    std::optional<FileVersion> file_version_; ///< that is shown, or was refused; none: no file
+    std::unique_ptr<ShownPack> shown_;
     ViewSettings settings_;
     FrameSettings drawn_; ///< applied ones: targets and pipelines are prepared for them
     Panel panel_;
     FlyControls controls_;
     FlyCamera camera_;
-    std::vector<std::string> clips_;
-    Playback playback_;
-    pack::PosePlayer player_;
-    pack::LightPlayer light_player_;
     FramePose pose_;
     FrameLights lights_; ///< changes of the next frame
     SceneLampWeights lamp_weights_;
     std::optional<shared::Daylight> scene_daylight_{};   ///< that the scene has
     std::optional<gpu::DaylightChange> daylight_change_; ///< of the next frame
-    /// Cameras to go to; the first is the start camera, the second shows the whole scene.
-    std::vector<NamedCamera> cameras_;
-    AssetViews assets_;
-    std::optional<size_t> asset_;                ///< selected one of assets_
-    std::vector<gpu::InstanceMove> moves_;       ///< of the next frame
-    std::span<const gpu::InstancePose> poses_{}; ///< of the next frame
-    gpu::ShadowOptions shadows_;
+    std::optional<size_t> asset_;                        ///< selected one of the pack
+    std::vector<gpu::InstanceMove> moves_;               ///< of the next frame
+    std::span<const gpu::InstancePose> poses_{};         ///< of the next frame
     std::vector<gpu::ShadowSphere> shadow_spheres_;
-    std::string problem_; ///< with the budget
+    std::string problem_;
     bool open_ = true;
     bool minimized_ = false;
     bool resized_ = true; ///< the targets do not fit the window, or the frame

@@ -175,6 +175,7 @@ int judge(const Totals& totals)
                      static_cast<double>(totals.no_manifolds));
     judgement.record("distances beyond their stored bound", static_cast<double>(totals.beyond));
     judgement.record("proxies with a vertex that is not bound", static_cast<double>(totals.not_bound));
+    judgement.record("largest stored bound / certified distance", totals.looseness);
     return judgement.finish();
 }
 
