@@ -110,8 +110,8 @@ public:
         const std::array corners{makeDouble3(cell.m_tet[0]), makeDouble3(cell.m_tet[1]),
                                  makeDouble3(cell.m_tet[2]), makeDouble3(cell.m_tet[3])};
         const auto touches = geom_traits().do_intersect_3_object();
-        return source_.findTouching(ConvexBody(corners), [&](uint32_t triangle)
-                                    { return touches(cell, makeTriangle(source_.surface(), triangle)); });
+        return source_.hasTouching(ConvexBody(corners), [&](uint32_t triangle)
+                                   { return touches(cell, makeTriangle(source_.surface(), triangle)); });
     }
 
     bool do_intersect(const Ball& ball) const
@@ -339,18 +339,19 @@ bool containsPoints(const Surface& surface, std::span<const Float3> points)
                        [&](Float3 point) { return side(makePoint(point)) == CGAL::ON_BOUNDED_SIDE; });
 }
 
-bool touchesSource(const Surface& surface, const SourceTree& source)
+std::vector<uint32_t> findTouching(const Surface& surface, const SourceTree& source)
 {
-    for (size_t i = 0; i < surface.triangleCount(); ++i)
+    std::vector<uint32_t> touching;
+    for (uint32_t i = 0; i < surface.triangleCount(); ++i)
     {
         const std::array<Float3, 3> c = surface.corners(i);
         const Triangle triangle = makeTriangle(surface, i);
-        if (source.findTouching(
-                ConvexBody(std::array{widen(c[0]), widen(c[1]), widen(c[2])}), [&](uint32_t other)
-                { return CGAL::do_intersect(triangle, makeTriangle(source.surface(), other)); }))
-            return true;
+        const auto touches = [&](uint32_t other)
+        { return CGAL::do_intersect(triangle, makeTriangle(source.surface(), other)); };
+        if (source.hasTouching(ConvexBody(std::array{widen(c[0]), widen(c[1]), widen(c[2])}), touches))
+            touching.push_back(i);
     }
-    return false;
+    return touching;
 }
 
 } // namespace hearth::wrap

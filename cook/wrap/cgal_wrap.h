@@ -45,7 +45,7 @@ std::optional<SelfIntersections> findSelfIntersections(const Surface& surface, s
 /// True if all points lie inside a closed surface that does not intersect itself.
 bool containsPoints(const Surface& surface, std::span<const Float3> points);
 
-/// True if a triangle of the surface touches one of the source.
-bool touchesSource(const Surface& surface, const SourceTree& source);
+/// Find the triangles of a surface that touch one of the source, in order.
+std::vector<uint32_t> findTouching(const Surface& surface, const SourceTree& source);
 
 } // namespace hearth::wrap

@@ -76,7 +76,7 @@ public:
 
     /// True if `touches` is true for a triangle that the body may touch.
     template <typename Touches>
-    bool findTouching(const ConvexBody& body, const Touches& touches) const
+    bool hasTouching(const ConvexBody& body, const Touches& touches) const
     {
         bool found = false;
         tree_.visitBoxes(

@@ -95,6 +95,13 @@ int program(int argc, char** argv)
                   "distance from the source, a fraction of each mesh's diagonal")
         .range(0.00001, 1.0, "FRACTION")
         .showDefault();
+    app.addOption("--error", arguments.options.error,
+                  "how far decimation may move the wrap, a fraction of each mesh's diagonal; 0: not at all")
+        .range(0.0, 1.0, "FRACTION")
+        .showDefault();
+    app.addOption("--triangles", arguments.options.triangles,
+                  "triangles that decimation aims at, at most; no limit by default")
+        .range(uint64_t{1}, uint64_t{1} << 32, "COUNT");
     app.addOption("-j,--jobs", arguments.jobs, "threads to use; the result does not depend on it");
     app.addOption("--max-memory", arguments.max_memory_mib, "MiB of memory that the process may use")
         .range(uint64_t{64}, uint64_t{1} << 24, "MIB")

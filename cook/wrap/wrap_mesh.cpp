@@ -3,13 +3,14 @@
 
 #include "cook/mesh/triangles.h"
 #include "cook/mesh/weld.h"
-#include "formats/base/disjoint_sets.h"
+#include "cook/wrap/check.h"
+#include "cook/wrap/decimate.h"
+#include "cook/wrap/thread_time.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
 #include <new>
 #include <span>
 
@@ -51,6 +52,14 @@ std::vector<uint32_t> findDistinctTriangles(const mesh::SourceMesh& mesh,
     std::ranges::sort(triangles);
     return triangles;
 }
+// Farther from the source fewer triangles are enough: the distance is doubled for a count, this often.
+constexpr int kMaxDoublings = 4;
+
+// Share of the error by which a wrap that is decimated lies farther away: without, triangles soon touch the
+// source, and with more, corners get too far to be sharp.
+constexpr double kClearance = 0.5;
+// First step, of the distance, by which triangles of a decimated wrap are pushed away from the source.
+constexpr double kFirstStep = 0.25;
 
 double diagonal(const Surface& surface)
 {
@@ -62,49 +71,6 @@ double diagonal(const Surface& surface)
         high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
     }
     return length(high - low);
-}
-
-bool hasCollapsedTriangle(const Surface& surface)
-{
-    for (size_t i = 0; i < surface.triangleCount(); ++i)
-    {
-        const std::array<Float3, 3> corners = surface.corners(i);
-        if (mesh::isDegenerate(corners[0], corners[1], corners[2]))
-            return true;
-    }
-    return false;
-}
-
-/// Return a point of each piece of a surface: a wrap that touches no triangle has all of a piece on one side.
-std::vector<Float3> findPieces(const Surface& surface)
-{
-    DisjointSets pieces(surface.positions.size());
-    for (size_t i = 0; i < surface.indices.size(); i += 3)
-        for (size_t k = 1; k < 3; ++k)
-            pieces.unite(surface.indices[i], surface.indices[i + k]);
-    std::vector<Float3> points;
-    for (uint32_t point = 0; point < surface.positions.size(); ++point)
-        if (pieces.find(point) == point)
-            points.push_back(surface.positions[point]);
-    return points;
-}
-
-/// Return the guarantee that a wrap breaks once it is rounded; "" if it holds all.
-std::string findFault(const Surface& wrap, const SourceTree& source)
-{
-    if (wrap.indices.empty())
-        return "it is no surface";
-    if (std::adjacent_find(wrap.positions.begin(), wrap.positions.end()) != wrap.positions.end() ||
-        hasCollapsedTriangle(wrap))
-        return "its triangles collapse";
-    // without a limit of time: the wrap had one, and took longer
-    if (findSelfIntersections(wrap, 1, std::numeric_limits<double>::infinity())->count > 0)
-        return "it intersects itself";
-    if (touchesSource(wrap, source))
-        return "it touches the source";
-    if (!containsPoints(wrap, findPieces(source.surface())))
-        return "it leaves vertices of the source outside";
-    return "";
 }
 
 mesh::SourceMesh makeMesh(Surface wrap, const mesh::SourceMesh& source, const SourceTree& tree,
@@ -143,21 +109,41 @@ Result<mesh::SourceMesh> wrapSurface(const mesh::SourceMesh& source, const WrapO
     const double size = diagonal(surface);
     // longer triangles in several boxes: CGAL's own choice
     const SourceTree tree(surface, 3 * options.alpha * size);
-    double offset = options.offset * size;
+    const double end = threadSeconds() + options.max_seconds;
+    const double error = options.error * size, clearance = kClearance * error;
+    double distance = options.offset * size + clearance;
+    std::optional<Surface> best;
     std::string fault;
-    for (int i = 0; i < kMaxTries; ++i, offset *= kOffsetGrowth)
+    for (int faults = 0, doublings = 0; faults < kMaxTries && doublings <= kMaxDoublings;)
     {
         std::optional<Surface> wrap =
-            computeAlphaWrap(tree, options.alpha * size, offset, options.max_seconds);
+            computeAlphaWrap(tree, options.alpha * size, distance, end - threadSeconds());
+        if (wrap)
+            fault = findFault(*wrap, tree).text;
+        if (wrap && !fault.empty())
+        {
+            ++faults;
+            distance *= kOffsetGrowth;
+            continue;
+        }
+        if (wrap && options.decimates())
+            wrap = decimateWrap(
+                *wrap, tree,
+                {error + clearance, options.triangles, kFirstStep * distance, end - threadSeconds()});
         if (!wrap)
             return fail(
                 fmt::format("its wrap takes more than {:g} s of processor time", options.max_seconds));
-        fault = findFault(*wrap, tree);
-        if (fault.empty())
-            return makeMesh(*std::move(wrap), source, tree, numbers);
+        if (!best || wrap->triangleCount() < best->triangleCount())
+            best = std::move(wrap);
+        if (best->triangleCount() <= options.triangles)
+            break;
+        ++doublings;
+        distance *= 2;
     }
+    if (best)
+        return makeMesh(*std::move(best), source, tree, numbers);
     return fail(fmt::format("{} once its positions are floats, with an offset of {:g} m and less", fault,
-                            offset / kOffsetGrowth));
+                            distance / kOffsetGrowth));
 }
 
 } // namespace

@@ -27,14 +27,17 @@ std::vector<Setting> makeProxySettings()
                 "a closed surface around it; source, none",
                 kAuthored, {kAuthored, "source", "clean", "wrap"}),
             "--proxy-from", "NAME"),
-        withOption(numberSetting("proxy.error",
-                                 "error of the cut that a clean proxy is made from, over the diagonal of the "
-                                 "mesh's box; 0: the whole mesh",
-                                 "0.002", 0, 1),
-                   "--proxy-error", "SHARE"),
         withOption(
-            wholeNumberSetting("proxy.triangles", "triangles of that cut, at most", "no limit", 1, 0x1p32),
-            "--proxy-triangles", "COUNT"),
+            numberSetting("proxy.error",
+                          "error of the cut that a clean proxy is made from, and how far a wrapped one "
+                          "is moved to have fewer triangles, over the diagonal of the mesh's box; 0: "
+                          "the whole mesh, the whole wrap",
+                          "0.002", 0, 1),
+            "--proxy-error", "SHARE"),
+        withOption(wholeNumberSetting("proxy.triangles",
+                                      "triangles of that cut, at most; a wrap has more where it must",
+                                      "no limit", 1, 0x1p32),
+                   "--proxy-triangles", "COUNT"),
         withOption(
             numberSetting("proxy.holes",
                           "holes of a clean proxy are filled whose boundary is at most this long, over the "

@@ -34,6 +34,8 @@ Result<Arguments> makeWrapArguments(const Values& values)
     Arguments arguments;
     addOption(values, "proxy.alpha", "--alpha", arguments);
     addOption(values, "proxy.offset", "--offset", arguments);
+    addOption(values, "proxy.error", "--error", arguments);
+    addOption(values, "proxy.triangles", "--triangles", arguments);
     return arguments;
 }
 
@@ -50,7 +52,7 @@ Cooker describeWrap()
             .has_statistics = true,
             .settings = makeWrapSettings(),
             .makeArguments = makeWrapArguments,
-            .cost = {64 * kMiB, 16, 4}};
+            .cost = {64 * kMiB, 16, 1}};
 }
 
 } // namespace hearth::cookers

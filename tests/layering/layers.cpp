@@ -100,7 +100,8 @@ const std::vector<Layer>& layers()
           "cook/proxy/clean", "cook/proxy/convex"}},
 
         {"cook/wrap",
-         {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/mesh", "cook/clusters/surface"}},
+         {"formats", "cook/command_line", "cook/json", "cook/tools", "cook/mesh", "cook/clusters/core",
+          "cook/clusters/simplify", "cook/clusters/surface"}},
 
         {"cook/bricks/grid", {"formats"}},
         {"cook/bricks/voxels", {"formats", "cook/json", "cook/tools", "cook/bricks/grid"}},

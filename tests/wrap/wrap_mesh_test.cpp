@@ -89,16 +89,10 @@ double findDiagonal(const SourceMesh& mesh)
     return length(widen(high) - widen(low));
 }
 
-/// Wrap and check all that a wrap promises.
-/// slack  how far the wrap may be from the source, of alpha and offset: above 1 where CGAL fills wedges
-///        between parts that touch in a point
-SourceMesh expectSound(const SourceMesh& source, const wrap::WrapOptions& options, double slack = 1)
+/// Check all that a wrap promises.
+/// max_distance  how far the wrap may be from the source, a fraction of the diagonal
+void checkWrap(const SourceMesh& mesh, const SourceMesh& source, double max_distance)
 {
-    const Result<SourceMesh> result = wrap::wrapMesh(source, options, "test.part", 0);
-    EXPECT_TRUE(result.ok()) << formatMessage(result.error());
-    if (!result.ok())
-        return {};
-    const SourceMesh& mesh = result.value();
     EXPECT_EQ(mesh.name, source.name);
     EXPECT_EQ(mesh.triangle_materials.size(), mesh.triangleCount());
     const CheckedSurface surface{mesh.positions, mesh.indices};
@@ -108,9 +102,32 @@ SourceMesh expectSound(const SourceMesh& source, const wrap::WrapOptions& option
     for (const uint32_t vertex : source.indices)
         EXPECT_NEAR(test::windingNumber(surface, widen(source.positions[vertex])), 1, 1e-6);
     const SurfaceDistance distance(source.positions, source.indices);
-    const double limit = slack * (options.alpha + options.offset) * findDiagonal(source);
-    EXPECT_LE(largestDistance(mesh.positions, mesh.indices, 20000, distance), limit * (1 + 1e-6));
-    return mesh;
+    EXPECT_LE(largestDistance(mesh.positions, mesh.indices, 20000, distance),
+              max_distance * findDiagonal(source) * (1 + 1e-6));
+}
+
+/// Wrap and check, with all triangles of the wrap, and decimated.
+/// slack    how far the wrap may be from the source, of alpha and offset: above 1 where CGAL fills wedges
+///          between parts that touch in a point
+/// returns  the wrap with all triangles
+SourceMesh expectSound(const SourceMesh& source, wrap::WrapOptions options, double slack = 1)
+{
+    const auto wrapWith = [&](double error)
+    {
+        options.error = error;
+        const Result<SourceMesh> result = wrap::wrapMesh(source, options, "test.part", 0);
+        EXPECT_TRUE(result.ok()) << formatMessage(result.error());
+        return result.ok() ? result.value() : SourceMesh{};
+    };
+    const SourceMesh whole = wrapWith(0);
+    const double max_distance = slack * (options.alpha + options.offset);
+    checkWrap(whole, source, max_distance);
+    constexpr double kError = 0.004;
+    const SourceMesh decimated = wrapWith(kError);
+    // half of the error more between it and the source, and as much and the error from the wrap
+    checkWrap(decimated, source, max_distance + 2 * kError);
+    EXPECT_LT(decimated.triangleCount(), whole.triangleCount());
+    return whole;
 }
 
 TEST(WrapMesh, OneSidedQuad)
@@ -161,6 +178,37 @@ TEST(WrapMesh, HouseWithoutAWallIsHollow)
     addBox(house, {0, 0, 0}, {1, 1, 1}, 5);
     const SourceMesh wrap = expectSound(house, {.alpha = 0.05});
     EXPECT_NEAR(test::windingNumber({wrap.positions, wrap.indices}, {0.5, 0.5, 0.5}), 0, 1e-6);
+}
+
+TEST(WrapMesh, DecimatedToTheCornersOfABox)
+{
+    SourceMesh box;
+    addBox(box, {0, 0, 0}, {3, 2, 1});
+    const Result<SourceMesh> wrap = wrap::wrapMesh(box, {.error = 0.004}, "test.part", 0);
+    ASSERT_TRUE(wrap.ok());
+    EXPECT_LE(wrap.value().triangleCount(), 24u);
+    checkWrap(wrap.value(), box, 0.01);
+}
+
+TEST(WrapMesh, DecimatedToACount)
+{
+    const SourceMesh rock = shapes::rock(8, 0.3f);
+    const Result<SourceMesh> wrap =
+        wrap::wrapMesh(rock, {.alpha = 1 / 20., .error = 0, .triangles = 100}, "test.part", 0);
+    ASSERT_TRUE(wrap.ok());
+    EXPECT_LE(wrap.value().triangleCount(), 100u);
+    EXPECT_GE(wrap.value().triangleCount(), 80u);
+    checkWrap(wrap.value(), rock, 1 / 20. + 16 * 1 / 600.);
+}
+
+TEST(WrapMesh, HasMoreTrianglesThanAskedForWhereItMust)
+{
+    const SourceMesh leaves = shapes::foliage(40);
+    const Result<SourceMesh> wrap = wrap::wrapMesh(
+        leaves, {.alpha = 1 / 20., .offset = 1 / 200., .error = 0, .triangles = 1}, "test.part", 0);
+    ASSERT_TRUE(wrap.ok());
+    EXPECT_GE(wrap.value().triangleCount(), 4u);
+    checkWrap(wrap.value(), leaves, 1);
 }
 
 TEST(WrapMesh, MaterialsAreThoseOfTheNearestTriangles)
