@@ -311,6 +311,19 @@ TEST_F(CookProxies, ofMeshesOfOneShapeAreMadeOnce)
             EXPECT_EQ(many[i][value], one[0][value]) << value;
     }
     EXPECT_GT(one[0]["convex_parts"].get<int>(), 1);
+
+    // those of artists have their distances bounded once, too
+    const auto import = [&](int copies)
+    {
+        folder.write("rocks.glb", copyFirstMesh(rock, copies));
+        EXPECT_EQ(cook({"rocks.glb"}, {"--proxy-from", "clean"}).exit_code, 0);
+        EXPECT_EQ(hearth({"extract", "a.hearth", "-o", "again.glb"}).exit_code, 0);
+        const double start = childSeconds();
+        run("import", {"again.glb", "-o", "again.part"});
+        return childSeconds() - start;
+    };
+    const double import_of_one = import(0);
+    EXPECT_LE(import(40), 10 * import_of_one) << import_of_one;
 }
 
 TEST_F(CookProxies, ofArtistsAreCarriedAndNotDrawn)

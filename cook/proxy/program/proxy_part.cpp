@@ -16,7 +16,6 @@
 #include <numeric>
 #include <optional>
 #include <ranges>
-#include <span>
 
 #include <tbb/parallel_for.h>
 
@@ -40,17 +39,9 @@ struct ProxiesOfMesh
     std::vector<MeshStatistics> statistics;
 };
 
-/// Hashes of all that a proxy is made of: equal surfaces have equal proxies.
-using SurfaceHashes = std::array<uint64_t, 5>;
-
-/// base    surface that becomes the proxy
-/// source  surface to which its distances are bounded
-SurfaceHashes hashSurfaces(const Surface& base, const Surface& source)
-{
-    const auto hash = [](const auto& values) { return hashBytes(std::as_bytes(std::span(values))); };
-    return {hash(base.positions), hash(base.indices), hash(base.materials), hash(source.positions),
-            hash(source.indices)};
-}
+/// Hashes of all that a proxy is made of: the surface that becomes it, and the one to which its distances are
+/// bounded.
+using SourceHash = std::array<SurfaceHash, 2>;
 
 /// Copy a proxy of a part.
 MadeProxy readProxy(const PackView& part, const ProxyRecord& record)
@@ -108,14 +99,14 @@ public:
         {
             if (meshes.size() == 1)
                 continue;
-            std::vector<std::optional<Result<SurfaceHashes>>> hashes(meshes.size());
+            std::vector<std::optional<Result<SourceHash>>> hashes(meshes.size());
             tbb::parallel_for(size_t{0}, meshes.size(),
-                              [&](size_t i) { hashes[i].emplace(readHashes(meshes[i])); });
-            std::map<SurfaceHashes, uint32_t> first_of_hashes;
+                              [&](size_t i) { hashes[i].emplace(readHash(meshes[i])); });
+            std::map<SourceHash, uint32_t> first_of_hash;
             for (size_t i = 0; i < meshes.size(); ++i)
             {
-                HEARTH_ASSIGN_OR_RETURN(const SurfaceHashes hash, *hashes[i]);
-                first_of_shape[meshes[i]] = first_of_hashes.emplace(hash, meshes[i]).first->second;
+                HEARTH_ASSIGN_OR_RETURN(const SourceHash hash, *hashes[i]);
+                first_of_shape[meshes[i]] = first_of_hash.emplace(hash, meshes[i]).first->second;
             }
         }
         return first_of_shape;
@@ -173,11 +164,11 @@ private:
         return wrap_ != nullptr ? readSurface(*wrap_, mesh) : readCut(clusters_, mesh, findError(mesh));
     }
 
-    Result<SurfaceHashes> readHashes(uint32_t mesh) const
+    Result<SourceHash> readHash(uint32_t mesh) const
     {
         HEARTH_ASSIGN_OR_RETURN(const Surface base, readBase(mesh));
         HEARTH_ASSIGN_OR_RETURN(const Surface source, readSurface(import_, mesh));
-        return hashSurfaces(base, source);
+        return SourceHash{hashSurface(base), hashSurface(source)};
     }
 
     float findError(uint32_t mesh) const

@@ -81,4 +81,12 @@ Distances boundDistances(const Surface& mesh, const Surface& proxy, double enoug
     return {roundUp(bounds.a.upper), roundUp(bounds.b.upper)};
 }
 
+Distances SharedDistances::bound(const Surface& mesh, const Surface& proxy)
+{
+    const auto [found, is_new] = distances_.try_emplace(std::array{hashSurface(mesh), hashSurface(proxy)});
+    if (is_new)
+        found->second = boundDistances(mesh, proxy, enough_);
+    return found->second;
+}
+
 } // namespace hearth::proxy

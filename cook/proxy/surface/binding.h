@@ -6,6 +6,8 @@
 #include "cook/proxy/surface/surface.h"
 #include "formats/records/proxy.h"
 
+#include <array>
+#include <map>
 #include <vector>
 
 namespace hearth::proxy
@@ -27,5 +29,20 @@ struct Distances
 /// true one, or `enough` of the mesh's diagonal. Surfaces that are apart everywhere take time with the
 /// inverse square of it.
 Distances boundDistances(const Surface& mesh, const Surface& proxy, double enough);
+
+/// Bounds the distances of many meshes and their proxies: those of equal surfaces once.
+class SharedDistances
+{
+public:
+    /// enough  as above
+    explicit SharedDistances(double enough) : enough_(enough) {}
+
+    /// Bound the distances of two surfaces as boundDistances.
+    Distances bound(const Surface& mesh, const Surface& proxy);
+
+private:
+    double enough_;
+    std::map<std::array<SurfaceHash, 2>, Distances> distances_;
+};
 
 } // namespace hearth::proxy

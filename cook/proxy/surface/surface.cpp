@@ -3,11 +3,19 @@
 
 #include "cook/mesh/triangles.h"
 #include "cook/mesh/weld.h"
+#include "formats/container/container_reader.h"
 
+#include <span>
 #include <utility>
 
 namespace hearth::proxy
 {
+
+SurfaceHash hashSurface(const Surface& surface)
+{
+    const auto hash = [](const auto& values) { return formats::hashBytes(std::as_bytes(std::span(values))); };
+    return {hash(surface.positions), hash(surface.indices), hash(surface.materials)};
+}
 
 float findDiagonal(const Surface& surface)
 {

@@ -43,6 +43,12 @@ inline uint32_t nextHalfEdge(uint32_t half_edge)
 /// Join vertices at equal positions, and drop triangles without area.
 void weldByPosition(Surface& surface);
 
+/// Hashes of positions, triangles and materials.
+using SurfaceHash = std::array<uint64_t, 3>;
+
+/// Return a hash that surfaces have in common only if they are equal.
+SurfaceHash hashSurface(const Surface& surface);
+
 /// Return the diagonal of the positions' box in metres, 0 without positions.
 float findDiagonal(const Surface& surface);
 

@@ -4,6 +4,7 @@
 
 #include "cook/animation_compression/compress.h"
 #include "cook/mesh/source_mesh.h"
+#include "cook/proxy/surface/binding.h"
 #include "cook/proxy/surface/proxy_tables.h"
 #include "cook/tools/lod_files.h"
 #include "formats/container/container_writer.h"
@@ -21,6 +22,10 @@
 
 namespace hearth::import
 {
+
+/// Share of the mesh's diagonal below which distances need not be told apart: proxies of artists lie off
+/// their meshes, as wraps do, where finer bounds take seconds.
+inline constexpr double kEnoughProxyDistance = 5e-3;
 
 /// Number type of an image's channels.
 enum class ChannelType : uint8_t
@@ -147,6 +152,7 @@ public:
     std::vector<animation_compression::ClipStatistics>
         clip_statistics;        ///< of compressed animations, for the report
     proxy::ProxyTables proxies; ///< that an artist made
+    proxy::SharedDistances proxy_distances{kEnoughProxyDistance};
     SourceCounts counts;
     std::optional<SourceSky> sky; ///< for writeSky
 

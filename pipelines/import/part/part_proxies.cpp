@@ -18,10 +18,6 @@ using proxy::Surface;
 namespace
 {
 
-// Share of the mesh's diagonal below which distances need not be told apart: proxies of artists lie off
-// their meshes, as wraps do, where finer bounds take seconds.
-constexpr double kEnough = 5e-3;
-
 Surface toSurface(const mesh::SourceMesh& mesh)
 {
     Surface surface{mesh.positions, mesh.indices, mesh.triangle_materials};
@@ -146,7 +142,7 @@ void addProxies(uint32_t mesh, const mesh::SourceMesh& of, std::span<const Proxy
         if (made.surface.triangleCount() == 0)
             continue;
         made.origin = formats::ProxyOrigin::authored;
-        made.distances = boundDistances(surface, made.surface, kEnough);
+        made.distances = part.proxy_distances.bound(surface, made.surface);
         part.proxies.add(mesh, made);
     }
 }
