@@ -847,8 +847,9 @@ enum
     HEARTH_TABLE_LIGHTS = 6,
     HEARTH_TABLE_SKINS = 7,
     HEARTH_TABLE_ANIMATIONS = 8,
-    HEARTH_TABLE_ASSETS = 9,  /* 1.7: the sources of the pack, by file name */
-    HEARTH_TABLE_PROXIES = 10 /* 1.8: they have the names of their meshes */
+    HEARTH_TABLE_ASSETS = 9,   /* 1.7: the sources of the pack, by file name */
+    HEARTH_TABLE_PROXIES = 10, /* 1.8: they have the names of their meshes */
+    HEARTH_TABLE_JOINTS = 11   /* 1.8: of all skins, skin by skin; they have the names of their nodes */
 };
 
 /* Count the records of a table (HEARTH_TABLE_*). errors: USAGE. */
@@ -866,6 +867,14 @@ typedef struct hearth_name
  * errors: USAGE, also if there is no such record. */
 HEARTH_API hearth_result hearth_pack_get_name(const hearth_pack* pack, uint32_t table, uint32_t index,
                                               hearth_name* name, char* message, size_t message_size);
+
+/* Find a record by its name (1.8): the first whose index is `first` or more. To go on, pass the index that
+ * was found, plus 1. Time: linear in the table.
+ * name   UTF-8, compared byte by byte; "": records without a name
+ * errors: USAGE, also if there is none. */
+HEARTH_API hearth_result hearth_pack_find_record(const hearth_pack* pack, uint32_t table, const char* name,
+                                                 uint32_t first, uint32_t* index, char* message,
+                                                 size_t message_size);
 
 /* ---- Extras (1.7), on any thread ----
  *
@@ -898,6 +907,123 @@ typedef struct hearth_extras
 /* Read the extras of an object. errors: USAGE, also if there is no such object. */
 HEARTH_API hearth_result hearth_pack_get_extras(const hearth_pack* pack, uint32_t owner, uint32_t index,
                                                 hearth_extras* extras, char* message, size_t message_size);
+
+/* Find an object by a custom property (1.8): the first of the kind, with an index of `first` or more, whose
+ * extras are an object with the member `name`. To go on, pass the index that was found, plus 1. Skips broken
+ * text. Time: linear in the extras of the pack.
+ * name   compared byte by byte with the text between the quotes, whose escapes stay as they are
+ * index  of the object
+ * value  JSON text of the member; or NULL
+ * errors: USAGE, also if there is none. */
+HEARTH_API hearth_result hearth_pack_find_extra(const hearth_pack* pack, uint32_t owner, const char* name,
+                                                uint32_t first, uint32_t* index, hearth_extras* value,
+                                                char* message, size_t message_size);
+
+/* Node of the source's scene (1.8). */
+typedef struct hearth_pack_node
+{
+    uint32_t struct_size;
+    uint32_t parent;                   /* UINT32_MAX: none */
+    uint32_t mesh;                     /* UINT32_MAX: none */
+    uint32_t skin;                     /* UINT32_MAX: none */
+    hearth_transform parent_from_node; /* at rest */
+    hearth_transform world_from_node;  /* at rest */
+} hearth_pack_node;
+
+#define HEARTH_PACK_NODE_INIT                                                                                \
+    {                                                                                                        \
+        sizeof(hearth_pack_node), 0, 0, 0, {{{0}}},                                                          \
+        {                                                                                                    \
+            {                                                                                                \
+                {                                                                                            \
+                    0                                                                                        \
+                }                                                                                            \
+            }                                                                                                \
+        }                                                                                                    \
+    }
+
+/* errors: USAGE, also if there is no such node. */
+HEARTH_API hearth_result hearth_pack_get_node(const hearth_pack* pack, uint32_t index, hearth_pack_node* node,
+                                              char* message, size_t message_size);
+
+/* Mesh (1.8). A pose of its instances has the joints of `skin`, or one transform without a skin. */
+typedef struct hearth_pack_mesh
+{
+    uint32_t struct_size;
+    uint32_t triangle_count; /* of the source; without area: left out */
+    uint32_t level_count;    /* 0: nothing to draw */
+    uint32_t skin;           /* UINT32_MAX: none */
+    uint32_t morph_weight_count;
+    uint32_t is_deformed; /* 1: its instances have poses (hearth_pose); 0: they have moves (hearth_move) */
+    float box_min[3];     /* object space, bind pose; box_min is above box_max if there is nothing to draw */
+    float box_max[3];
+} hearth_pack_mesh;
+
+#define HEARTH_PACK_MESH_INIT                                                                                \
+    {                                                                                                        \
+        sizeof(hearth_pack_mesh), 0, 0, 0, 0, 0, {0, 0, 0},                                                  \
+        {                                                                                                    \
+            0, 0, 0                                                                                          \
+        }                                                                                                    \
+    }
+
+/* errors: USAGE, also if there is no such mesh. */
+HEARTH_API hearth_result hearth_pack_get_mesh(const hearth_pack* pack, uint32_t index, hearth_pack_mesh* mesh,
+                                              char* message, size_t message_size);
+
+/* Skin (1.8). Poses have its joints in this order: joint i of a pose is record first_joint + i of
+ * HEARTH_TABLE_JOINTS. */
+typedef struct hearth_pack_skin
+{
+    uint32_t struct_size;
+    uint32_t first_joint;
+    uint32_t joint_count;
+    uint32_t root; /* node above all joints, as the source names it; UINT32_MAX: none */
+} hearth_pack_skin;
+
+#define HEARTH_PACK_SKIN_INIT                                                                                \
+    {                                                                                                        \
+        sizeof(hearth_pack_skin), 0, 0, 0                                                                    \
+    }
+
+/* errors: USAGE, also if there is no such skin. */
+HEARTH_API hearth_result hearth_pack_get_skin(const hearth_pack* pack, uint32_t index, hearth_pack_skin* skin,
+                                              char* message, size_t message_size);
+
+/* Joint of a skin (1.8). A pose has the product of the joint's transform to the world and joint_from_bind. */
+typedef struct hearth_pack_joint
+{
+    uint32_t struct_size;
+    uint32_t node;
+    /* joint of the same skin on the way to the root of the nodes, the nearest one, as a record of
+     * HEARTH_TABLE_JOINTS; UINT32_MAX: none */
+    uint32_t parent;
+    uint32_t reserved; /* 0 */
+    hearth_transform joint_from_bind;
+} hearth_pack_joint;
+
+#define HEARTH_PACK_JOINT_INIT                                                                               \
+    {                                                                                                        \
+        sizeof(hearth_pack_joint), 0, 0, 0,                                                                  \
+        {                                                                                                    \
+            {                                                                                                \
+                {                                                                                            \
+                    0                                                                                        \
+                }                                                                                            \
+            }                                                                                                \
+        }                                                                                                    \
+    }
+
+/* errors: USAGE, also if there is no such joint. */
+HEARTH_API hearth_result hearth_pack_get_joint(const hearth_pack* pack, uint32_t index,
+                                               hearth_pack_joint* joint, char* message, size_t message_size);
+
+/* Read a light (1.8) as the pack has it, without its flicker, ready to be changed for hearth_frame.lights.
+ * node  that it shines from; or NULL
+ * errors: USAGE, also if there is no such light. */
+HEARTH_API hearth_result hearth_pack_get_light(const hearth_pack* pack, uint32_t index,
+                                               hearth_light_change* light, uint32_t* node, char* message,
+                                               size_t message_size);
 
 /* Placed mesh. */
 typedef struct hearth_pack_instance

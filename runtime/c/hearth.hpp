@@ -134,6 +134,68 @@ public:
         return result;
     }
 
+    /// Find the first record with a name whose index is `first` or more. Pass the index that was found, plus
+    /// 1, to go on.
+    [[nodiscard]] hearth_result findRecord(uint32_t table, const std::string& name, uint32_t& index,
+                                           uint32_t first = 0, std::string* message = nullptr) const
+    {
+        return callWithMessage(
+            message, [&](char* text, size_t size)
+            { return hearth_pack_find_record(get(), table, name.c_str(), first, &index, text, size); });
+    }
+
+    /// Find the first object, from `first` on, whose extras have a member.
+    /// owner  HEARTH_EXTRAS_*
+    /// value  JSON text of the member; valid while the pack is open
+    [[nodiscard]] hearth_result findExtra(uint32_t owner, const std::string& name, uint32_t& index,
+                                          std::string_view& value, uint32_t first = 0,
+                                          std::string* message = nullptr) const
+    {
+        hearth_extras read{};
+        const hearth_result result = callWithMessage(
+            message, [&](char* text, size_t size)
+            { return hearth_pack_find_extra(get(), owner, name.c_str(), first, &index, &read, text, size); });
+        if (result == HEARTH_OK)
+            value = {read.json, read.length};
+        return result;
+    }
+
+    [[nodiscard]] hearth_result getNode(uint32_t index, hearth_pack_node& node,
+                                        std::string* message = nullptr) const
+    {
+        return callWithMessage(message, [&](char* text, size_t size)
+                               { return hearth_pack_get_node(get(), index, &node, text, size); });
+    }
+
+    [[nodiscard]] hearth_result getMesh(uint32_t index, hearth_pack_mesh& mesh,
+                                        std::string* message = nullptr) const
+    {
+        return callWithMessage(message, [&](char* text, size_t size)
+                               { return hearth_pack_get_mesh(get(), index, &mesh, text, size); });
+    }
+
+    [[nodiscard]] hearth_result getSkin(uint32_t index, hearth_pack_skin& skin,
+                                        std::string* message = nullptr) const
+    {
+        return callWithMessage(message, [&](char* text, size_t size)
+                               { return hearth_pack_get_skin(get(), index, &skin, text, size); });
+    }
+
+    /// index  of HEARTH_TABLE_JOINTS
+    [[nodiscard]] hearth_result getJoint(uint32_t index, hearth_pack_joint& joint,
+                                         std::string* message = nullptr) const
+    {
+        return callWithMessage(message, [&](char* text, size_t size)
+                               { return hearth_pack_get_joint(get(), index, &joint, text, size); });
+    }
+
+    [[nodiscard]] hearth_result getLight(uint32_t index, hearth_light_change& light,
+                                         std::string* message = nullptr) const
+    {
+        return callWithMessage(message, [&](char* text, size_t size)
+                               { return hearth_pack_get_light(get(), index, &light, nullptr, text, size); });
+    }
+
     [[nodiscard]] hearth_result getInstance(uint32_t index, hearth_pack_instance& instance,
                                             std::string* message = nullptr) const
     {

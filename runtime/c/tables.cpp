@@ -1,11 +1,10 @@
-// Tables of a pack: counts, names, extras, instances, cameras and proxies.
+// Tables of a pack: counts, names and extras.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/c/handles.h"
+#include "runtime/c/tables.h"
 
-#include <algorithm>
+#include "runtime/pack/queries/extras_member.h"
+
 #include <array>
-#include <cstddef>
-#include <span>
 
 using namespace hearth;
 using namespace hearth::c;
@@ -15,8 +14,8 @@ namespace
 
 /// A record of each table, in the order of HEARTH_TABLE_*.
 constexpr std::array kRecordNames{"node",  "instance", "mesh",      "material", "image", "camera",
-                                  "light", "skin",     "animation", "asset",    "proxy"};
-static_assert(kRecordNames.size() == HEARTH_TABLE_PROXIES + 1);
+                                  "light", "skin",     "animation", "asset",    "proxy", "joint"};
+static_assert(kRecordNames.size() == HEARTH_TABLE_JOINTS + 1);
 
 /// Table of the objects of each kind of extras, in the order of HEARTH_EXTRAS_*.
 constexpr std::array kExtrasTables{HEARTH_TABLE_NODES,      HEARTH_TABLE_MESHES, HEARTH_TABLE_MATERIALS,
@@ -27,21 +26,6 @@ static_assert(kExtrasTables.size() == formats::kExtrasOwnerNames.size());
 static_assert(HEARTH_EXTRAS_CAMERA == static_cast<int>(formats::ExtrasOwner::camera));
 static_assert(HEARTH_EXTRAS_ANIMATION == static_cast<int>(formats::ExtrasOwner::animation));
 static_assert(HEARTH_EXTRAS_FILE == static_cast<int>(formats::ExtrasOwner::file));
-
-static_assert(HEARTH_CAMERA_PERSPECTIVE == static_cast<int>(formats::CameraType::perspective));
-static_assert(HEARTH_CAMERA_ORTHOGRAPHIC == static_cast<int>(formats::CameraType::orthographic));
-
-static_assert(HEARTH_PROXY_CLEANED == static_cast<int>(formats::ProxyOrigin::cleaned));
-static_assert(HEARTH_PROXY_WRAPPED == static_cast<int>(formats::ProxyOrigin::wrapped));
-static_assert(HEARTH_PROXY_AUTHORED == static_cast<int>(formats::ProxyOrigin::authored));
-// the caller gets records as they lie in the pack
-static_assert(sizeof(hearth_proxy_section) == sizeof(formats::ProxySectionRecord));
-static_assert(offsetof(hearth_proxy_section, material) == offsetof(formats::ProxySectionRecord, material));
-static_assert(offsetof(hearth_proxy_section, is_convex) == offsetof(formats::ProxySectionRecord, is_convex));
-static_assert(sizeof(hearth_proxy_binding) == sizeof(formats::ProxyBindingRecord));
-static_assert(offsetof(hearth_proxy_binding, weights) == offsetof(formats::ProxyBindingRecord, weights));
-static_assert(offsetof(hearth_proxy_binding, distance) == offsetof(formats::ProxyBindingRecord, distance));
-static_assert(sizeof(Float3) == 3 * sizeof(float));
 
 /// Return `use` of the table's records: a number or a string. `table` is one of HEARTH_TABLE_*.
 template <typename Use>
@@ -69,6 +53,8 @@ auto withRecords(const formats::PackView& view, uint32_t table, const Use& use)
         return use(view.animations());
     case HEARTH_TABLE_PROXIES:
         return use(view.proxies());
+    case HEARTH_TABLE_JOINTS:
+        return use(view.joints());
     default:
         return use(view.assets());
     }
@@ -90,6 +76,11 @@ std::string_view readName(const formats::PackView& view, const formats::ProxyRec
     return readName(view, view.meshes()[proxy.mesh]);
 }
 
+std::string_view readName(const formats::PackView& view, const formats::JointRecord& joint)
+{
+    return readName(view, view.nodes()[joint.node]);
+}
+
 Status checkTable(const hearth_pack* pack, uint32_t table)
 {
     if (pack == nullptr)
@@ -99,14 +90,38 @@ Status checkTable(const hearth_pack* pack, uint32_t table)
     return success();
 }
 
+/// owner  HEARTH_EXTRAS_*
+Status checkOwner(uint32_t owner)
+{
+    if (owner >= kExtrasTables.size())
+        return usage("owner " + std::to_string(owner) + " is not one that this version knows");
+    return success();
+}
+
+/// "the pack has no node called door, from node 4 on".
+std::string missingText(std::string_view kind, std::string_view relation, std::string_view name,
+                        uint32_t first)
+{
+    std::string text = "the pack has no " + std::string(kind) + " " + std::string(relation) + " ";
+    text += name.empty() ? "\"\"" : name;
+    return first == 0 ? text : text + ", from " + std::string(kind) + " " + std::to_string(first) + " on";
+}
+
 uint32_t readCount(const hearth_pack& pack, uint32_t table)
 {
     return withRecords(pack.pack.view(), table,
                        [](const auto& records) { return static_cast<uint32_t>(records.size()); });
 }
 
-/// Check that the pack is not NULL and has the record. `table` is one of HEARTH_TABLE_*.
-Status checkRecord(const hearth_pack* pack, uint32_t table, uint32_t index)
+std::string_view readName(const hearth_pack& pack, uint32_t table, uint32_t index)
+{
+    const formats::PackView& view = pack.pack.view();
+    return withRecords(view, table, [&](const auto& records) { return readName(view, records[index]); });
+}
+
+} // namespace
+
+Status hearth::c::checkRecord(const hearth_pack* pack, uint32_t table, uint32_t index)
 {
     HEARTH_TRY(checkTable(pack, table));
     if (const uint32_t count = readCount(*pack, table); index >= count)
@@ -114,75 +129,6 @@ Status checkRecord(const hearth_pack* pack, uint32_t table, uint32_t index)
                      ": the pack has " + std::to_string(count));
     return success();
 }
-
-void copyRows(const Affine3& from, float (&to)[3][4])
-{
-    static_assert(sizeof(from.m) == sizeof(to));
-    std::copy_n(&from.m[0][0], 12, &to[0][0]);
-}
-
-void copyVector(Float3 from, float (&to)[3])
-{
-    to[0] = from.x;
-    to[1] = from.y;
-    to[2] = from.z;
-}
-
-/// Convert to the camera of a frame, as hearth-render draws --scene-camera.
-hearth_camera makeCamera(const formats::CameraRecord& record)
-{
-    const Affine3& world_from_camera = record.world_from_camera;
-    const Float3 position = transformPoint(world_from_camera, {});
-    hearth_camera view{};
-    copyVector(position, view.position);
-    copyVector(position + transformVector(world_from_camera, {0, 0, -1}), view.target);
-    copyVector(transformVector(world_from_camera, {0, 1, 0}), view.up);
-    view.y_fov_rad = record.y_fov_rad;
-    view.z_near = record.z_near;
-    return view;
-}
-
-hearth_pack_camera toC(const formats::CameraRecord& record)
-{
-    hearth_pack_camera camera = HEARTH_PACK_CAMERA_INIT;
-    camera.type = record.type;
-    camera.node = record.node;
-    camera.aspect = record.aspect;
-    camera.half_width = record.x_magnification;
-    camera.half_height = record.y_magnification;
-    camera.z_far = record.z_far;
-    copyRows(record.world_from_camera, camera.world_from_camera);
-    camera.view = makeCamera(record);
-    return camera;
-}
-
-/// Return the records of a range, as C sees them; null for an empty one.
-template <typename To, typename From>
-const To* readRange(std::span<const From> table, formats::Range range)
-{
-    return range.count == 0 ? nullptr : reinterpret_cast<const To*>(&table[range.first]);
-}
-
-hearth_proxy toC(const formats::PackView& view, const formats::ProxyRecord& record)
-{
-    hearth_proxy proxy = HEARTH_PROXY_INIT;
-    proxy.mesh = record.mesh;
-    proxy.origin = record.origin;
-    proxy.is_closed = record.is_closed;
-    proxy.distance = record.distance;
-    proxy.mesh_distance = record.mesh_distance;
-    proxy.position_count = record.positions.count;
-    proxy.index_count = record.indices.count;
-    proxy.section_count = record.sections.count;
-    proxy.binding_count = record.bindings.count;
-    proxy.positions = readRange<float>(view.proxyPositions(), record.positions);
-    proxy.indices = readRange<uint32_t>(view.proxyIndices(), record.indices);
-    proxy.sections = readRange<hearth_proxy_section>(view.proxySections(), record.sections);
-    proxy.bindings = readRange<hearth_proxy_binding>(view.proxyBindings(), record.bindings);
-    return proxy;
-}
-
-} // namespace
 
 hearth_result hearth_pack_get_count(const hearth_pack* pack, uint32_t table, uint32_t* count, char* message,
                                     size_t message_size)
@@ -207,11 +153,59 @@ hearth_result hearth_pack_get_name(const hearth_pack* pack, uint32_t table, uint
                     HEARTH_TRY(checkRecord(pack, table, index));
                     if (name == nullptr)
                         return usage("name is NULL");
-                    const formats::PackView& view = pack->pack.view();
-                    const std::string_view text = withRecords(
-                        view, table, [&](const auto& records) { return readName(view, records[index]); });
+                    const std::string_view text = readName(*pack, table, index);
                     *name = {text.empty() ? "" : text.data(), text.size()};
                     return success();
+                });
+}
+
+hearth_result hearth_pack_find_record(const hearth_pack* pack, uint32_t table, const char* name,
+                                      uint32_t first, uint32_t* index, char* message, size_t message_size)
+{
+    return call({message, message_size}, __func__,
+                [&]() -> Status
+                {
+                    HEARTH_TRY(checkTable(pack, table));
+                    if (name == nullptr || index == nullptr)
+                        return usage("name or index is NULL");
+                    const std::string_view wanted(name);
+                    const uint32_t count = readCount(*pack, table);
+                    for (uint32_t i = first; i < count; ++i)
+                        if (readName(*pack, table, i) == wanted)
+                        {
+                            *index = i;
+                            return success();
+                        }
+                    return usage(missingText(kRecordNames[table], "called", wanted, first));
+                });
+}
+
+hearth_result hearth_pack_find_extra(const hearth_pack* pack, uint32_t owner, const char* name,
+                                     uint32_t first, uint32_t* index, hearth_extras* value, char* message,
+                                     size_t message_size)
+{
+    return call({message, message_size}, __func__,
+                [&]() -> Status
+                {
+                    HEARTH_TRY(checkOwner(owner));
+                    HEARTH_TRY(checkTable(pack, kExtrasTables[owner]));
+                    if (name == nullptr || index == nullptr)
+                        return usage("name or index is NULL");
+                    const formats::PackView& view = pack->pack.view();
+                    for (const formats::ExtrasRecord& record : view.extras())
+                    {
+                        if (record.owner != owner || record.index < first)
+                            continue;
+                        const std::string_view found = pack::findMember(view.text(record.json), name);
+                        if (found.empty())
+                            continue;
+                        *index = record.index;
+                        if (value != nullptr)
+                            *value = {found.data(), found.size()};
+                        return success();
+                    }
+                    return usage(
+                        missingText(formats::kExtrasOwnerNames[owner], "with the extra", name, first));
                 });
 }
 
@@ -221,59 +215,13 @@ hearth_result hearth_pack_get_extras(const hearth_pack* pack, uint32_t owner, ui
     return call({message, message_size}, __func__,
                 [&]() -> Status
                 {
-                    if (owner >= kExtrasTables.size())
-                        return usage("owner " + std::to_string(owner) +
-                                     " is not one that this version knows");
+                    HEARTH_TRY(checkOwner(owner));
                     HEARTH_TRY(checkRecord(pack, kExtrasTables[owner], index));
                     if (extras == nullptr)
                         return usage("extras is NULL");
                     const std::string_view json =
                         pack->pack.view().findExtras(static_cast<formats::ExtrasOwner>(owner), index);
                     *extras = {json.empty() ? nullptr : json.data(), json.size()};
-                    return success();
-                });
-}
-
-hearth_result hearth_pack_get_instance(const hearth_pack* pack, uint32_t index,
-                                       hearth_pack_instance* instance, char* message, size_t message_size)
-{
-    return call({message, message_size}, __func__,
-                [&]() -> Status
-                {
-                    HEARTH_TRY(checkRecord(pack, HEARTH_TABLE_INSTANCES, index));
-                    HEARTH_TRY(checkStruct("instance", instance));
-                    const formats::InstanceRecord& record = pack->pack.view().instances()[index];
-                    instance->mesh = record.mesh;
-                    instance->node = record.node;
-                    instance->reserved = 0;
-                    copyRows(record.world_from_object, instance->world_from_object);
-                    return success();
-                });
-}
-
-hearth_result hearth_pack_get_camera(const hearth_pack* pack, uint32_t index, hearth_pack_camera* camera,
-                                     char* message, size_t message_size)
-{
-    return call({message, message_size}, __func__,
-                [&]() -> Status
-                {
-                    HEARTH_TRY(checkRecord(pack, HEARTH_TABLE_CAMERAS, index));
-                    HEARTH_TRY(checkStruct("camera", camera));
-                    *camera = toC(pack->pack.view().cameras()[index]);
-                    return success();
-                });
-}
-
-hearth_result hearth_pack_get_proxy(const hearth_pack* pack, uint32_t index, hearth_proxy* proxy,
-                                    char* message, size_t message_size)
-{
-    return call({message, message_size}, __func__,
-                [&]() -> Status
-                {
-                    HEARTH_TRY(checkRecord(pack, HEARTH_TABLE_PROXIES, index));
-                    HEARTH_TRY(checkStruct("proxy", proxy));
-                    const formats::PackView& view = pack->pack.view();
-                    *proxy = toC(view, view.proxies()[index]);
                     return success();
                 });
 }

@@ -211,6 +211,7 @@ const std::vector<Layer>& layers()
         // shipped in a game
         {"runtime/frame", {"formats"}},
         {"runtime/pack", {"formats"}},
+        {"runtime/pack/queries", {"formats", "runtime/pack"}},
         {"runtime/pack/receivers", {"formats"}},
         {"runtime/shaders", {}},
         {"runtime/shaders/scene", {"formats/gpu_shared"}},

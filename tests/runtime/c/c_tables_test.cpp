@@ -3,7 +3,9 @@
 #include "runtime/c/hearth.hpp"
 #include "tests/support/small_pack.h"
 
+#include <cmath>
 #include <gmock/gmock.h>
+#include <map>
 
 namespace hearth::test
 {
@@ -88,6 +90,168 @@ TEST_F(CTablesTest, aRecordWithoutANameHasAnEmptyOne)
     EXPECT_EQ(hearth_pack_get_name(pack.get(), HEARTH_TABLE_MATERIALS, 0, &name, nullptr, 0), HEARTH_OK);
     EXPECT_NE(name.text, nullptr);
     EXPECT_EQ(name.length, 0u);
+}
+
+TEST_F(CTablesTest, recordsAreFoundByName)
+{
+    for (uint32_t table = 0; table <= HEARTH_TABLE_JOINTS; ++table)
+    {
+        std::map<std::string, std::vector<uint32_t>> records; // by name
+        for (uint32_t i = 0; i < count(table); ++i)
+            records[name(table, i)].push_back(i);
+        EXPECT_FALSE(records.empty()) << table;
+        for (const auto& [name, indices] : records)
+        {
+            std::vector<uint32_t> found;
+            for (uint32_t i = 0; pack_.findRecord(table, name, i, i) == HEARTH_OK; ++i)
+                found.push_back(i);
+            EXPECT_EQ(found, indices) << table << " " << name;
+        }
+    }
+    uint32_t index = 7;
+    ASSERT_EQ(pack_.findRecord(HEARTH_TABLE_LIGHTS, "light", index, 1, &message_), HEARTH_OK) << message_;
+    EXPECT_EQ(index, 1u) << "the pack has three of this name";
+    EXPECT_EQ(pack_.findRecord(HEARTH_TABLE_LIGHTS, "light", index, 3, &message_), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(message_, HasSubstr("the pack has no light called light, from light 3 on"));
+    EXPECT_EQ(pack_.findRecord(HEARTH_TABLE_INSTANCES, "strip nod", index, 0, &message_), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(message_, HasSubstr("the pack has no instance called strip nod ["));
+    EXPECT_EQ(index, 1u);
+    EXPECT_EQ(pack_.findRecord(12, "light", index), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_pack_find_record(pack_.get(), 0, nullptr, 0, &index, nullptr, 0), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_pack_find_record(pack_.get(), 0, "light", 0, nullptr, nullptr, 0), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_pack_find_record(nullptr, 0, "light", 0, &index, nullptr, 0), HEARTH_ERROR_USAGE);
+}
+
+TEST_F(CTablesTest, jointsAreInTheOrderOfPoses)
+{
+    hearth_pack_mesh mesh = HEARTH_PACK_MESH_INIT;
+    ASSERT_EQ(pack_.getMesh(2, mesh, &message_), HEARTH_OK) << message_;
+    EXPECT_EQ(mesh.is_deformed, 1u);
+    EXPECT_EQ(mesh.morph_weight_count, 1u);
+    hearth_pack_skin skin = HEARTH_PACK_SKIN_INIT;
+    ASSERT_EQ(pack_.getSkin(mesh.skin, skin, &message_), HEARTH_OK) << message_;
+    ASSERT_EQ(skin.joint_count, 2u);
+    EXPECT_EQ(skin.root, UINT32_MAX);
+    EXPECT_EQ(name(HEARTH_TABLE_JOINTS, skin.first_joint + 1), "between");
+    hearth_pack_joint joint = HEARTH_PACK_JOINT_INIT;
+    ASSERT_EQ(pack_.getJoint(skin.first_joint + 1, joint, &message_), HEARTH_OK) << message_;
+    EXPECT_EQ(joint.node, 2u);
+    EXPECT_EQ(joint.parent, skin.first_joint) << "the node of joint 0 is the parent of node 2";
+    ASSERT_EQ(pack_.getJoint(skin.first_joint, joint), HEARTH_OK);
+    EXPECT_EQ(joint.parent, UINT32_MAX);
+    EXPECT_EQ(pack_.getJoint(2, joint, &message_), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(message_, HasSubstr("there is no joint 2: the pack has 2"));
+}
+
+TEST_F(CTablesTest, posesOfRestFollowFromNodesAndJoints)
+{
+    model_.nodes[0].translation = {1, 2, 3};
+    model_.nodes[0].rotation = {0, std::sqrt(0.5f), 0, std::sqrt(0.5f)};
+    model_.nodes[0].scale = {2, 1, 1};
+    model_.nodes[2].parent_from_node.m[0][3] = 7; // a product of these depends on their order
+    model_.joints[1].joint_from_bind.m[2][3] = -5;
+    const AlignedBytes bytes = model_.bytes();
+    ASSERT_EQ(Pack::openMemory(bytes.span().data(), bytes.size(), "small", pack_, &message_), HEARTH_OK)
+        << message_;
+    Player player;
+    ASSERT_EQ(Player::create(pack_, player), HEARTH_OK);
+    hearth_player_info info = HEARTH_PLAYER_INFO_INIT;
+    ASSERT_EQ(player.getInfo(info), HEARTH_OK);
+    ASSERT_EQ(info.pose_count, 1u);
+    ASSERT_EQ(info.poses[0].joint_count, 2u);
+    for (uint32_t j = 0; j < 2; ++j)
+    {
+        hearth_pack_joint joint = HEARTH_PACK_JOINT_INIT;
+        hearth_pack_node node = HEARTH_PACK_NODE_INIT;
+        ASSERT_EQ(pack_.getJoint(j, joint), HEARTH_OK);
+        ASSERT_EQ(pack_.getNode(joint.node, node), HEARTH_OK);
+        const auto& world = node.world_from_node.m;
+        const auto& bind = joint.joint_from_bind.m;
+        for (int row = 0; row < 3; ++row)
+            for (int column = 0; column < 4; ++column)
+            {
+                const double product = world[row][0] * bind[0][column] + world[row][1] * bind[1][column] +
+                                       world[row][2] * bind[2][column] + (column == 3 ? world[row][3] : 0);
+                EXPECT_NEAR(info.poses[0].world_from_bind[j].m[row][column], product, 1e-12);
+            }
+    }
+}
+
+TEST_F(CTablesTest, nodesAndMeshesAreThoseOfTheTables)
+{
+    hearth_pack_node node = HEARTH_PACK_NODE_INIT;
+    for (uint32_t i = 0; i < model_.nodes.size(); ++i)
+    {
+        ASSERT_EQ(pack_.getNode(i, node, &message_), HEARTH_OK) << message_;
+        EXPECT_EQ(node.parent, model_.nodes[i].parent);
+        EXPECT_EQ(node.mesh, model_.nodes[i].mesh);
+        EXPECT_EQ(node.skin, model_.nodes[i].skin);
+    }
+    hearth_pack_mesh mesh = HEARTH_PACK_MESH_INIT;
+    ASSERT_EQ(pack_.getMesh(0, mesh), HEARTH_OK);
+    EXPECT_EQ(mesh.triangle_count, 8u) << "a strip of four quads";
+    EXPECT_EQ(mesh.level_count, 2u);
+    EXPECT_EQ(mesh.is_deformed, 0u);
+    EXPECT_EQ(mesh.skin, UINT32_MAX);
+    EXPECT_EQ(mesh.box_min[0], 0);
+    EXPECT_EQ(mesh.box_max[0], 4);
+    ASSERT_EQ(pack_.getMesh(1, mesh), HEARTH_OK);
+    EXPECT_EQ(mesh.triangle_count, 0u);
+    EXPECT_GT(mesh.box_min[0], mesh.box_max[0]) << "a mesh without triangles";
+    node.struct_size = 4;
+    EXPECT_EQ(pack_.getNode(0, node, &message_), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(pack_.getNode(4, node, &message_), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(pack_.getMesh(3, mesh, &message_), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_pack_get_skin(pack_.get(), 0, nullptr, nullptr, 0), HEARTH_ERROR_USAGE);
+}
+
+TEST_F(CTablesTest, lightsAreReadyToBeChanged)
+{
+    model_.lights[2].world_from_light.m[0][3] = 6;
+    model_.lights[2].range = 3;
+    const AlignedBytes bytes = model_.bytes();
+    ASSERT_EQ(Pack::openMemory(bytes.span().data(), bytes.size(), "small", pack_, &message_), HEARTH_OK)
+        << message_;
+    hearth_light_change light{};
+    constexpr uint32_t kTypes[] = {HEARTH_LIGHT_SUN, HEARTH_LIGHT_POINT, HEARTH_LIGHT_SPOT};
+    for (uint32_t i = 0; i < 3; ++i)
+    {
+        ASSERT_EQ(pack_.getLight(i, light, &message_), HEARTH_OK) << message_;
+        EXPECT_EQ(light.light, i);
+        EXPECT_EQ(light.type, kTypes[i]);
+        EXPECT_EQ(light.intensity, 10);
+        EXPECT_EQ(light.color[2], 0.8f);
+    }
+    EXPECT_EQ(light.range, 3);
+    EXPECT_EQ(light.outer_cone_rad, 0.5f);
+    EXPECT_EQ(light.world_from_light[0][3], 6);
+    uint32_t node = 7;
+    EXPECT_EQ(hearth_pack_get_light(pack_.get(), 0, &light, &node, nullptr, 0), HEARTH_OK);
+    EXPECT_EQ(node, model_.lights[0].node);
+    EXPECT_EQ(pack_.getLight(3, light, &message_), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_pack_get_light(pack_.get(), 0, nullptr, nullptr, nullptr, 0), HEARTH_ERROR_USAGE);
+}
+
+TEST_F(CTablesTest, objectsAreFoundByAnExtra)
+{
+    uint32_t index = 9;
+    std::string_view value;
+    ASSERT_EQ(pack_.findExtra(HEARTH_EXTRAS_NODE, "speed", index, value, 0, &message_), HEARTH_OK)
+        << message_;
+    EXPECT_EQ(index, 1u);
+    EXPECT_EQ(value, "1.50");
+    EXPECT_EQ(
+        hearth_pack_find_extra(pack_.get(), HEARTH_EXTRAS_MATERIAL, "sound", 0, &index, nullptr, nullptr, 0),
+        HEARTH_OK);
+    EXPECT_EQ(index, 0u);
+    EXPECT_EQ(pack_.findExtra(HEARTH_EXTRAS_NODE, "speed", index, value, 2, &message_), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(message_, HasSubstr("the pack has no node with the extra speed, from node 2 on"));
+    EXPECT_EQ(pack_.findExtra(HEARTH_EXTRAS_MESH, "speed", index, value), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(pack_.findExtra(HEARTH_EXTRAS_FILE + 1, "speed", index, value), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_pack_find_extra(nullptr, 0, "speed", 0, &index, nullptr, nullptr, 0),
+              HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_pack_find_extra(pack_.get(), 0, nullptr, 0, &index, nullptr, nullptr, 0),
+              HEARTH_ERROR_USAGE);
 }
 
 TEST_F(CTablesTest, extrasAreTheTextOfTheSource)
@@ -224,9 +388,9 @@ TEST_F(CTablesTest, whatIsNotThereIsRefused)
     EXPECT_EQ(pack_.getProxy(2, proxy, &message_), HEARTH_ERROR_USAGE);
     EXPECT_THAT(message_, HasSubstr("there is no proxy 2: the pack has 2"));
     EXPECT_EQ(hearth_pack_get_proxy(pack_.get(), 0, nullptr, nullptr, 0), HEARTH_ERROR_USAGE);
-    EXPECT_EQ(pack_.getName(HEARTH_TABLE_PROXIES + 1, 0, name, &message_), HEARTH_ERROR_USAGE);
-    EXPECT_THAT(message_, HasSubstr("table 11 is not one that this version knows"));
-    EXPECT_EQ(hearth_pack_get_count(pack_.get(), 11, &count, nullptr, 0), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(pack_.getName(HEARTH_TABLE_JOINTS + 1, 0, name, &message_), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(message_, HasSubstr("table 12 is not one that this version knows"));
+    EXPECT_EQ(hearth_pack_get_count(pack_.get(), 12, &count, nullptr, 0), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_pack_get_count(pack_.get(), 0, nullptr, nullptr, 0), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_pack_get_count(nullptr, 0, &count, message, sizeof(message)), HEARTH_ERROR_USAGE);
     EXPECT_THAT(message, HasSubstr("pack is NULL"));
