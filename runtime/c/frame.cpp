@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/c/camera.h"
 #include "runtime/c/lights.h"
 #include "runtime/c/shadows.h"
 
@@ -9,34 +10,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 using namespace hearth;
 using namespace hearth::c;
 
 namespace
 {
-
-Float3 toFloat3(const float (&v)[3])
-{
-    return {v[0], v[1], v[2]};
-}
-
-bool isFinite(const float (&v)[3])
-{
-    return std::all_of(v, v + 3, [](float value) { return std::isfinite(value); });
-}
-
-Status check(const hearth_camera& camera)
-{
-    if (!isFinite(camera.position) || !isFinite(camera.target) || !isFinite(camera.up))
-        return usage("the camera's position, target or up is not finite");
-    if (!(camera.y_fov_rad > 0 && camera.y_fov_rad < std::numbers::pi_v<float>))
-        return usage("the camera's y_fov_rad is not above 0 and below pi");
-    if (!(camera.z_near > 0) || !std::isfinite(camera.z_near))
-        return usage("the camera's z_near is not above 0");
-    return success();
-}
 
 bool isShare(float value)
 {
@@ -64,7 +43,7 @@ Status checkPost(const gpu::Renderer& renderer, const hearth_frame& frame)
 
 Status check(const hearth_renderer& renderer, const hearth_frame& frame)
 {
-    HEARTH_TRY(check(frame.camera));
+    HEARTH_TRY(checkCamera(frame.camera));
     constexpr float kMaxShift = 1024;
     if (!(std::abs(frame.shift[0]) <= kMaxShift && std::abs(frame.shift[1]) <= kMaxShift))
         return usage("shift is not from -1024 to 1024");
@@ -210,12 +189,8 @@ Status setCurve(shared::FrameView& view, const hearth_frame& frame)
 Result<shared::FrameView> makeView(const hearth_scene& scene, const gpu::FrameTargets& targets,
                                    const hearth_frame& frame)
 {
-    const shared::Camera camera{.position = toFloat3(frame.camera.position),
-                                .target = toFloat3(frame.camera.target),
-                                .up = toFloat3(frame.camera.up),
-                                .y_fov_rad = frame.camera.y_fov_rad,
-                                .z_near = frame.camera.z_near,
-                                .shift = {frame.shift[0], frame.shift[1]}};
+    shared::Camera camera = toCamera(frame.camera);
+    camera.shift = {frame.shift[0], frame.shift[1]};
     const uint32_t off = frame.occlusion == HEARTH_OCCLUSION_OFF ? uint32_t{HEARTH_CULL_OCCLUSION} : 0;
     shared::FrameView view =
         shared::makeFrameView(camera, targets.extent().width, targets.extent().height, frame.error_pixels,

@@ -7,6 +7,7 @@
 #include "runtime/pack/light_player.h"
 #include "runtime/pack/pack.h"
 #include "runtime/pack/pose_player.h"
+#include "runtime/pack/queries/scene_queries.h"
 
 #include <atomic>
 #include <vector>
@@ -18,6 +19,7 @@ struct hearth_pack
     hearth::pack::Pack pack;
     std::atomic<uint32_t> scene_count = 0; ///< of any renderer, on any thread
     std::atomic<uint32_t> player_count = 0;
+    std::atomic<uint32_t> queries_count = 0;
     char last_error[256] = ""; ///< of hearth_pack_close
 
     hearth::c::MessageBuffer message() { return {last_error, sizeof(last_error)}; }
@@ -37,6 +39,17 @@ struct hearth_player
     std::vector<hearth_pose> poses;
     std::vector<hearth_light_change> changed_lights; ///< same as the light player's, converted
     std::vector<hearth_light_change> lights;
+};
+
+struct hearth_queries
+{
+    hearth_queries(hearth_pack& opened, uint64_t page_bytes)
+        : pack(opened), queries(opened.pack.view(), page_bytes)
+    {
+    }
+
+    hearth_pack& pack;
+    hearth::pack::SceneQueries queries;
 };
 
 struct hearth_renderer

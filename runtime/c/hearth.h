@@ -55,7 +55,8 @@ typedef struct hearth_pack hearth_pack;
 typedef struct hearth_renderer hearth_renderer;
 typedef struct hearth_scene hearth_scene;
 typedef struct hearth_targets hearth_targets;
-typedef struct hearth_player hearth_player; /* since 1.2 */
+typedef struct hearth_player hearth_player;   /* since 1.2 */
+typedef struct hearth_queries hearth_queries; /* since 1.8 */
 
 /* Return the HEARTH_API_VERSION of the library. */
 HEARTH_API uint32_t hearth_api_version(void);
@@ -93,7 +94,7 @@ HEARTH_API hearth_result hearth_pack_find_animation(const hearth_pack* pack, con
                                                     uint32_t* animation, double* seconds, char* message,
                                                     size_t message_size);
 
-/* errors: IN_USE while scenes or players made from it are alive. */
+/* errors: IN_USE while scenes, players or queries made from it are alive. */
 HEARTH_API hearth_result hearth_pack_close(hearth_pack* pack);
 
 /* Return the message of the last failed hearth_pack_close of the pack (1.6); "" if none failed. */
@@ -1209,6 +1210,128 @@ typedef struct hearth_player_lights
 HEARTH_API hearth_result hearth_player_get_lights(hearth_player* player, double flicker_seconds,
                                                   hearth_player_lights* lights, char* message,
                                                   size_t message_size);
+
+/* ---- Queries (1.8): bounds of a pack's instances where they stand, and rays against them, on the CPU ----
+ *
+ * Queries hold transforms and poses of their own, at rest at first: pass them the moves and poses of frames.
+ * They need neither renderer nor scene. One thread at a time uses an object; a game may have several of a
+ * pack. */
+
+typedef struct hearth_queries_options
+{
+    uint32_t struct_size;
+    uint32_t reserved; /* 0 */
+    /* Decoded pages that are kept, at least one: rays that need others decode them, some 80 us each. */
+    uint64_t page_bytes;
+} hearth_queries_options;
+
+#define HEARTH_QUERIES_OPTIONS_INIT                                                                          \
+    {                                                                                                        \
+        sizeof(hearth_queries_options), 0, 33554432                                                          \
+    }
+
+/* Create queries with all memory that they need, in a time linear in the clusters of the pack, which outlives
+ * them. errors: USAGE, OUT_OF_MEMORY. */
+HEARTH_API hearth_result hearth_queries_create(hearth_pack* pack, const hearth_queries_options* options,
+                                               hearth_queries** queries, char* message, size_t message_size);
+
+/* errors: none. */
+HEARTH_API hearth_result hearth_queries_destroy(hearth_queries* queries);
+
+/* Move and pose instances, from now on, by the arrays of a frame, which are copied. Allocates nothing.
+ * errors: USAGE; then nothing is moved. */
+HEARTH_API hearth_result hearth_queries_place(hearth_queries* queries, const hearth_move* moves,
+                                              uint32_t move_count, const hearth_pose* poses,
+                                              uint32_t pose_count, char* message, size_t message_size);
+
+/* Box in the world, metres; empty: min is above max. */
+typedef struct hearth_box
+{
+    float min[3];
+    float max[3];
+} hearth_box;
+
+/* Find the bounds of instances first to first + count - 1, together, where they stand. A pose that is not
+ * free has the box around all poses of the clips, moved to the pose's place.
+ * errors: USAGE. */
+HEARTH_API hearth_result hearth_queries_get_bounds(const hearth_queries* queries, uint32_t first,
+                                                   uint32_t count, hearth_box* box, char* message,
+                                                   size_t message_size);
+
+/* Find bounds of instances first to first + count - 1, together, over all times of a clip that is played
+ * alone, in the world. Proven, and so larger than what the clip sweeps, where limbs are fast by tens of
+ * percent. Takes milliseconds a clip, and memory for the time of the call. On any thread. errors: USAGE,
+ * OUT_OF_MEMORY. */
+HEARTH_API hearth_result hearth_pack_get_clip_bounds(const hearth_pack* pack, uint32_t animation,
+                                                     uint32_t first, uint32_t count, hearth_box* box,
+                                                     char* message, size_t message_size);
+
+/* The points origin + t direction with t from t_min to t_max. */
+typedef struct hearth_ray
+{
+    float origin[3];    /* world */
+    float direction[3]; /* of any length above 0 */
+    float t_min;        /* 0 or more */
+    float t_max;        /* not below t_min; may be infinite */
+} hearth_ray;
+
+/* Point of a triangle. */
+typedef struct hearth_hit
+{
+    uint32_t instance; /* UINT32_MAX: nothing was hit, and the rest is 0 */
+    uint32_t node;     /* of the instance; with its name */
+    uint32_t mesh;
+    uint32_t material; /* UINT32_MAX: the default */
+    uint32_t cluster;  /* of the pack */
+    uint32_t triangle; /* of the cluster */
+    float t;           /* of the ray */
+    float weights[2];  /* barycentric weights of the triangle's second and third corner */
+    float position[3]; /* world */
+    float normal[3];   /* of the triangle's front side; unit, or 0 where the triangle has no area */
+} hearth_hit;
+
+/* Flags of hearth_cast. */
+enum
+{
+    HEARTH_CAST_ANY = 1,        /* any hit in place of the nearest */
+    HEARTH_CAST_FRONT_SIDES = 2 /* pass back sides where frames do not draw them: of one-sided materials */
+};
+
+typedef struct hearth_cast
+{
+    uint32_t struct_size;
+    uint32_t flags; /* HEARTH_CAST_* */
+    /* Of the pack, with a budget: rays meet the finest level that it holds since its last begin_frame. NULL:
+     * the source's triangles. */
+    const hearth_scene* scene;
+    /* Called for hits in no order, nearer than those that it has accepted; 0: the ray goes on. Calls no
+     * function of the library. NULL: all are accepted. */
+    int (*accept)(void* user, const hearth_hit* hit);
+    void* user;
+} hearth_cast;
+
+#define HEARTH_CAST_INIT                                                                                     \
+    {                                                                                                        \
+        sizeof(hearth_cast), 0, NULL, NULL, NULL                                                             \
+    }
+
+/* Cast rays: hits[i] gets the nearest hit of rays[i], or any. Whole triangles stop rays, also of masked and
+ * blended materials. Neighbouring triangles leave no gap. Allocates nothing but some memory to decode pages,
+ * once a thread.
+ * cast    or NULL: the defaults
+ * errors: USAGE; FILE_MALFORMED, if the pages that a ray needs are damaged. Then hits are not to be used. */
+HEARTH_API hearth_result hearth_queries_cast_rays(hearth_queries* queries, const hearth_ray* rays,
+                                                  uint32_t ray_count, const hearth_cast* cast,
+                                                  hearth_hit* hits, char* message, size_t message_size);
+
+/* Make the ray through a place of a frame's image. Its t is the distance along the view's axis, from z_near
+ * on.
+ * width, height  of the targets; above 0
+ * x, y           pixels from the left and from the top; a pixel's center is at .5
+ * errors: USAGE. */
+HEARTH_API hearth_result hearth_camera_get_ray(const hearth_camera* camera, uint32_t width, uint32_t height,
+                                               float x, float y, hearth_ray* ray, char* message,
+                                               size_t message_size);
 
 /* Record culling and drawing, outside a render pass. Clobbers compute and graphics state. Submit the frames
  * of a scene, and the frames with the same targets, to one queue for graphics and compute, in recording

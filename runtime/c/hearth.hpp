@@ -218,6 +218,15 @@ public:
                                { return hearth_pack_get_proxy(get(), index, &proxy, text, size); });
     }
 
+    /// Bounds of instances over all times of a clip.
+    [[nodiscard]] hearth_result getClipBounds(uint32_t animation, uint32_t first, uint32_t count,
+                                              hearth_box& box, std::string* message = nullptr) const
+    {
+        return callWithMessage(
+            message, [&](char* text, size_t size)
+            { return hearth_pack_get_clip_bounds(get(), animation, first, count, &box, text, size); });
+    }
+
     const char* lastError() const { return hearth_pack_last_error(get()); }
 };
 
@@ -261,6 +270,57 @@ public:
         return callWithMessage(
             message, [&](char* text, size_t size)
             { return hearth_player_get_lights(get(), flicker_seconds, &lights, text, size); });
+    }
+};
+
+/// Bounds and rays of a pack, which outlives them.
+class Queries : public Handle<hearth_queries, hearth_queries_destroy>
+{
+public:
+    using Handle::Handle;
+
+    [[nodiscard]] static hearth_result create(const Pack& pack, const hearth_queries_options& options,
+                                              Queries& queries, std::string* message = nullptr)
+    {
+        hearth_queries* handle = nullptr;
+        const hearth_result result =
+            callWithMessage(message, [&](char* text, size_t size)
+                            { return hearth_queries_create(pack.get(), &options, &handle, text, size); });
+        if (result == HEARTH_OK)
+            queries.reset(handle);
+        return result;
+    }
+
+    /// Move and pose instances by the arrays of a frame.
+    [[nodiscard]] hearth_result place(const hearth_move* moves, uint32_t move_count, const hearth_pose* poses,
+                                      uint32_t pose_count, std::string* message = nullptr)
+    {
+        return callWithMessage(
+            message, [&](char* text, size_t size)
+            { return hearth_queries_place(get(), moves, move_count, poses, pose_count, text, size); });
+    }
+
+    [[nodiscard]] hearth_result getBounds(uint32_t first, uint32_t count, hearth_box& box,
+                                          std::string* message = nullptr) const
+    {
+        return callWithMessage(message, [&](char* text, size_t size)
+                               { return hearth_queries_get_bounds(get(), first, count, &box, text, size); });
+    }
+
+    /// cast  or null
+    [[nodiscard]] hearth_result castRays(const hearth_ray* rays, uint32_t ray_count, const hearth_cast* cast,
+                                         hearth_hit* hits, std::string* message = nullptr)
+    {
+        return callWithMessage(
+            message, [&](char* text, size_t size)
+            { return hearth_queries_cast_rays(get(), rays, ray_count, cast, hits, text, size); });
+    }
+
+    /// Cast one ray.
+    [[nodiscard]] hearth_result castRay(const hearth_ray& ray, hearth_hit& hit,
+                                        const hearth_cast* cast = nullptr, std::string* message = nullptr)
+    {
+        return castRays(&ray, 1, cast, &hit, message);
     }
 };
 

@@ -79,9 +79,10 @@ hearth_result hearth_pack_close(hearth_pack* pack)
 {
     if (pack == nullptr)
         return HEARTH_OK;
-    const hearth_result unused =
-        checkUnused(pack->message(), __func__, "pack",
-                    {{pack->scene_count, "scene", "scenes"}, {pack->player_count, "player", "players"}});
+    const hearth_result unused = checkUnused(pack->message(), __func__, "pack",
+                                             {{pack->scene_count, "scene", "scenes"},
+                                              {pack->player_count, "player", "players"},
+                                              {pack->queries_count, "queries object", "queries objects"}});
     if (unused == HEARTH_OK)
         delete pack;
     return unused;

@@ -139,6 +139,8 @@ public:
     void setDemandSlots(uint32_t slots);
 
     const Residency& residency() const { return residency_; }
+    /// Return the groups that are resident as of the last beginFrame.
+    const ResidentGroups& groups() const { return groups_; }
     uint32_t pageSlot(uint32_t page) const { return slot_of_page_[page]; } ///< kInvalidIndex: none
     const StreamStatistics& statistics() const { return statistics_; }
 

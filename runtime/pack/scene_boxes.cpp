@@ -73,7 +73,7 @@ Affine3d blendedJoints(const formats::ClusterGeometry& geometry, uint32_t vertex
     if (geometry.influenceCount() == 0)
         return palette[0];
     const auto joints = geometry.joints(vertex);
-    const auto weights = geometry.weights(vertex);
+    const auto codes = geometry.weightCodes(vertex);
     Affine3d blended{};
     for (int row = 0; row < 3; ++row)
         for (int column = 0; column < 4; ++column)
@@ -81,7 +81,7 @@ Affine3d blendedJoints(const formats::ClusterGeometry& geometry, uint32_t vertex
             double& sum = blended.m[row][column];
             sum = 0;
             for (size_t i = 0; i < geometry.influenceCount(); ++i)
-                sum += double{weights[i]} * palette[joints[i]].m[row][column];
+                sum += codes[i] / 65535.0 * palette[joints[i]].m[row][column];
         }
     return blended;
 }
@@ -91,12 +91,7 @@ Box3 posedBox(const formats::ClusterGeometry& geometry, const PosedInstance& pos
 {
     Box3 box;
     for (uint32_t v = 0; v < geometry.vertexCount(); ++v)
-    {
-        Float3 bind = geometry.position(v);
-        for (uint32_t i = 0; i < geometry.morphCount(); ++i)
-            bind += geometry.morphPosition(i, v) * pose.morph_weights[geometry.morphTarget(i)];
-        box.add(narrow(transformPoint(blendedJoints(geometry, v, pose.world_from_bind), widen(bind))));
-    }
+        box.add(narrow(posedPosition(geometry, v, pose)));
     return box;
 }
 
@@ -118,6 +113,15 @@ void addPosed(const formats::PackView& pack, const PosedInstance& pose, std::vec
 }
 
 } // namespace
+
+Double3 posedPosition(const formats::ClusterGeometry& geometry, uint32_t vertex, const PosedInstance& pose)
+{
+    Double3 bind = widen(geometry.position(vertex));
+    for (uint32_t i = 0; i < geometry.morphCount(); ++i)
+        bind = bind +
+               widen(geometry.morphPosition(i, vertex)) * double{pose.morph_weights[geometry.morphTarget(i)]};
+    return transformPoint(blendedJoints(geometry, vertex, pose.world_from_bind), bind);
+}
 
 formats::Range allInstances(const formats::PackView& pack)
 {

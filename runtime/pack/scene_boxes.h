@@ -1,4 +1,4 @@
-// Bounding boxes of a scene's instances and clusters in a pose.
+// Positions of vertices, and bounding boxes of a scene's instances and clusters, in a pose.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -15,6 +15,9 @@ struct TransformedBox
     Box3 box;
     Affine3 world_from_box;
 };
+
+/// Return the position in the world of a vertex of a deformed instance.
+Double3 posedPosition(const formats::ClusterGeometry& geometry, uint32_t vertex, const PosedInstance& pose);
 
 /// Return the range of all instances of a pack.
 formats::Range allInstances(const formats::PackView& pack);

@@ -232,6 +232,27 @@ TEST_F(CTablesTest, lightsAreReadyToBeChanged)
     EXPECT_EQ(hearth_pack_get_light(pack_.get(), 0, nullptr, nullptr, nullptr, 0), HEARTH_ERROR_USAGE);
 }
 
+TEST_F(CTablesTest, clipsHaveBounds)
+{
+    hearth_box box{}, strip{};
+    ASSERT_EQ(pack_.getClipBounds(0, 0, 2, box, &message_), HEARTH_OK) << message_;
+    ASSERT_EQ(pack_.getClipBounds(0, 0, 1, strip), HEARTH_OK);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        EXPECT_LE(box.min[axis], strip.min[axis]);
+        EXPECT_LE(strip.min[axis], strip.max[axis]);
+        EXPECT_LE(strip.max[axis], box.max[axis]);
+    }
+    ASSERT_EQ(pack_.getClipBounds(0, 2, 0, box), HEARTH_OK);
+    EXPECT_GT(box.min[0], box.max[0]) << "of no instance";
+    EXPECT_EQ(pack_.getClipBounds(0, 1, 2, box, &message_), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(message_, HasSubstr("the pack has 2"));
+    EXPECT_EQ(pack_.getClipBounds(9, 0, 1, box, &message_), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(message_, HasSubstr("there is no animation 9"));
+    EXPECT_EQ(hearth_pack_get_clip_bounds(nullptr, 0, 0, 1, &box, nullptr, 0), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_pack_get_clip_bounds(pack_.get(), 0, 0, 1, nullptr, nullptr, 0), HEARTH_ERROR_USAGE);
+}
+
 TEST_F(CTablesTest, objectsAreFoundByAnExtra)
 {
     uint32_t index = 9;

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/c/camera.h"
+
+#include "formats/base/affine3d.h"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+using namespace hearth;
+using namespace hearth::c;
+
+namespace
+{
+
+/// Return the ray whose points appear at a place of the image; t is the distance along the view's axis.
+/// x, y  pixels
+Result<hearth_ray> makeRay(const shared::FrameView& view, float x, float y)
+{
+    Affine3d clip_from_world{};
+    const Float4 rows[] = {view.clip_x, view.clip_y, view.clip_w};
+    for (int row = 0; row < 3; ++row)
+    {
+        auto& to = clip_from_world.m[row];
+        to[0] = rows[row].x, to[1] = rows[row].y, to[2] = rows[row].z;
+    }
+    const auto world_from_clip = inverted(clip_from_world);
+    if (!world_from_clip)
+        return usage("the camera has no ray");
+    const Float3 direction = narrow(transformVector(
+        *world_from_clip, {2 * double{x} / view.width - 1, 2 * double{y} / view.height - 1, 1}));
+    return hearth_ray{.origin = {view.eye.x, view.eye.y, view.eye.z},
+                      .direction = {direction.x, direction.y, direction.z},
+                      .t_min = view.z_near,
+                      .t_max = std::numeric_limits<float>::infinity()};
+}
+
+} // namespace
+
+Status hearth::c::checkCamera(const hearth_camera& camera)
+{
+    if (!isFinite(toFloat3(camera.position)) || !isFinite(toFloat3(camera.target)) ||
+        !isFinite(toFloat3(camera.up)))
+        return usage("the camera's position, target or up is not finite");
+    if (!(camera.y_fov_rad > 0 && camera.y_fov_rad < std::numbers::pi_v<float>))
+        return usage("the camera's y_fov_rad is not above 0 and below pi");
+    if (!(camera.z_near > 0) || !std::isfinite(camera.z_near))
+        return usage("the camera's z_near is not above 0");
+    return success();
+}
+
+shared::Camera hearth::c::toCamera(const hearth_camera& camera)
+{
+    return {.position = toFloat3(camera.position),
+            .target = toFloat3(camera.target),
+            .up = toFloat3(camera.up),
+            .y_fov_rad = camera.y_fov_rad,
+            .z_near = camera.z_near};
+}
+
+Result<hearth_ray> hearth::c::makePixelRay(const hearth_camera& camera, uint32_t width, uint32_t height,
+                                           float x, float y)
+{
+    HEARTH_TRY(checkCamera(camera));
+    if (width == 0 || height == 0 || !std::isfinite(x) || !std::isfinite(y))
+        return usage("width or height is 0, or x or y is not finite");
+    return makeRay(shared::makeFrameView(toCamera(camera), width, height, 1, 0, 0), x, y);
+}
+
+hearth_result hearth_camera_get_ray(const hearth_camera* camera, uint32_t width, uint32_t height, float x,
+                                    float y, hearth_ray* ray, char* message, size_t message_size)
+{
+    return call({message, message_size}, __func__,
+                [&]() -> Status
+                {
+                    if (camera == nullptr || ray == nullptr)
+                        return usage("camera or ray is NULL");
+                    HEARTH_ASSIGN_OR_RETURN(*ray, makePixelRay(*camera, width, height, x, y));
+                    return success();
+                });
+}

@@ -1,0 +1,232 @@
+// Tests rays and bounds through hearth.h against the images of frames.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/c/hearth.hpp"
+#include "runtime/pack/page_graph.h"
+#include "tests/runtime/c/c_fixture.h"
+
+#include <cmath>
+
+namespace hearth::test
+{
+
+namespace
+{
+
+using testing::HasSubstr;
+
+/// The fixture's pack, and queries of it.
+class CQueriesTest : public CApiTest
+{
+protected:
+    void SetUp() override
+    {
+        CApiTest::SetUp();
+        const hearth_queries_options options = HEARTH_QUERIES_OPTIONS_INIT;
+        ASSERT_EQ(hearth_queries_create(pack_, &options, &handle_, message_, sizeof(message_)), HEARTH_OK)
+            << message_;
+        queries_ = Queries(handle_);
+    }
+    void TearDown() override
+    {
+        queries_.reset();
+        CApiTest::TearDown();
+    }
+
+    /// Cast a ray through the center of each pixel of the fixture's images.
+    std::vector<hearth_hit> castPixels(const hearth_frame& frame, const hearth_cast& cast)
+    {
+        std::vector<hearth_ray> rays(kWidth * kHeight);
+        for (uint32_t i = 0; i < rays.size(); ++i)
+            EXPECT_EQ(hearth_camera_get_ray(&frame.camera, kWidth, kHeight,
+                                            static_cast<float>(i % kWidth) + 0.5f,
+                                            static_cast<float>(i / kWidth) + 0.5f, &rays[i], nullptr, 0),
+                      HEARTH_OK);
+        std::vector<hearth_hit> hits(rays.size());
+        EXPECT_EQ(
+            queries_.castRays(rays.data(), static_cast<uint32_t>(rays.size()), &cast, hits.data(), &text_),
+            HEARTH_OK)
+            << text_;
+        return hits;
+    }
+
+    hearth_queries* handle_ = nullptr;
+    Queries queries_;
+    std::string text_;
+};
+
+hearth_frame sourceFrame()
+{
+    hearth_frame frame = makeFrame();
+    frame.error_pixels = 0;
+    return frame;
+}
+
+/// Pixels whose center lies on an edge to within the rounding of the rasterizer.
+constexpr size_t kMaxEdgePixels = 8;
+
+} // namespace
+
+TEST_F(CQueriesTest, raysHitWhatPixelsShow)
+{
+    hearth_frame frame = sourceFrame();
+    hearth_move move{0, {{1, 0, 0, 0.5f}, {0, 1, 0, 0.25f}, {0, 0, 1, 0}}};
+    hearth_cast cast = HEARTH_CAST_INIT;
+    cast.flags = HEARTH_CAST_FRONT_SIDES;
+    for (const bool moves : {false, true})
+    {
+        frame.moves = &move;
+        frame.move_count = moves ? 1 : 0;
+        ASSERT_EQ(queries_.place(frame.moves, frame.move_count, nullptr, 0, &text_), HEARTH_OK) << text_;
+        (void)drawInC(frame);
+        const std::vector<hearth_hit> hits = castPixels(frame, cast);
+        size_t different = 0, covered = 0;
+        for (size_t i = 0; i < hits.size(); ++i)
+        {
+            const bool is_sky = visibility_[i] == 0xFFFFFFFFu, misses = hits[i].instance == UINT32_MAX;
+            different += is_sky != misses;
+            covered += !misses;
+            EXPECT_TRUE(misses || hits[i].t > frame.camera.z_near);
+        }
+        EXPECT_LE(different, kMaxEdgePixels);
+        EXPECT_GT(covered, hits.size() / 8);
+        EXPECT_LT(covered, hits.size());
+    }
+}
+
+TEST_F(CQueriesTest, hitsNameRecordsOfThePack)
+{
+    hearth_ray ray{{0, 0, 9}, {0, 0, -1}, 0, INFINITY};
+    hearth_hit hit{};
+    ASSERT_EQ(queries_.castRay(ray, hit, nullptr, &text_), HEARTH_OK) << text_;
+    ASSERT_NE(hit.instance, UINT32_MAX);
+    hearth_pack_instance instance = HEARTH_PACK_INSTANCE_INIT;
+    ASSERT_EQ(hearth_pack_get_instance(pack_, hit.instance, &instance, nullptr, 0), HEARTH_OK);
+    EXPECT_EQ(hit.node, instance.node);
+    EXPECT_EQ(hit.mesh, instance.mesh);
+    EXPECT_LT(hit.material, 2u);
+    EXPECT_NEAR(hit.position[2], 9 - hit.t, 1e-5f);
+    EXPECT_NEAR(std::hypot(hit.normal[0], hit.normal[1], hit.normal[2]), 1, 1e-6f);
+    hearth_box box{};
+    ASSERT_EQ(queries_.getBounds(hit.instance, 1, box), HEARTH_OK);
+    for (int axis = 0; axis < 3; ++axis)
+    {
+        EXPECT_GE(hit.position[axis], box.min[axis]);
+        EXPECT_LE(hit.position[axis], box.max[axis]);
+    }
+
+    // a filter that wants another instance
+    struct Filter
+    {
+        uint32_t refused;
+        uint32_t calls;
+        static int accept(void* user, const hearth_hit* found)
+        {
+            auto& filter = *static_cast<Filter*>(user);
+            ++filter.calls;
+            return found->instance != filter.refused ? 1 : 0;
+        }
+    } filter{hit.instance, 0};
+    hearth_cast cast = HEARTH_CAST_INIT;
+    cast.accept = Filter::accept;
+    cast.user = &filter;
+    hearth_hit other{};
+    ASSERT_EQ(queries_.castRay(ray, other, &cast), HEARTH_OK);
+    EXPECT_NE(other.instance, hit.instance);
+    EXPECT_GT(filter.calls, 0u);
+
+    ray.t_max = hit.t * 0.99f;
+    ASSERT_EQ(queries_.castRay(ray, other), HEARTH_OK);
+    EXPECT_EQ(other.instance, UINT32_MAX);
+    EXPECT_EQ(other.t, 0);
+}
+
+TEST_F(CQueriesTest, raysHitTheLevelThatAStreamedSceneHolds)
+{
+    Reader reader{pack_, kInvalidIndex, {}};
+    hearth_scene_options options = streamedBy(reader);
+    hearth_scene* scene = nullptr;
+    ASSERT_EQ(hearth_scene_upload(renderer_, pack_, c_caller_begin(caller_), &options, &scene), HEARTH_OK)
+        << hearth_last_error(renderer_);
+    ASSERT_EQ(c_caller_submit(caller_), VK_SUCCESS);
+    // nothing was asked for yet: the coarsest levels are there
+    hearth_cast source = HEARTH_CAST_INIT, held = HEARTH_CAST_INIT;
+    held.scene = scene;
+    const hearth_frame frame = sourceFrame();
+    const std::vector<hearth_hit> fine = castPixels(frame, source), coarse = castPixels(frame, held);
+    size_t clusters = 0;
+    for (size_t i = 0; i < fine.size(); ++i)
+        clusters += fine[i].cluster != coarse[i].cluster;
+    EXPECT_GT(clusters, fine.size() / 8);
+    const pack::PageGraph graph = pack::PageGraph::of(*view_);
+    for (const hearth_hit& hit : fine)
+        EXPECT_TRUE(hit.instance == UINT32_MAX || view_->clusters()[hit.cluster].level == 0);
+    for (const hearth_hit& hit : coarse)
+        EXPECT_TRUE(hit.instance == UINT32_MAX || graph.isPinned(view_->clusters()[hit.cluster].page));
+    EXPECT_EQ(hearth_scene_destroy(scene), HEARTH_OK);
+}
+
+TEST_F(CQueriesTest, whatCannotBeIsRefused)
+{
+    hearth_ray ray{{0, 0, 9}, {0, 0, -1}, 0, 100};
+    hearth_hit hit{};
+    const auto refuses = [&](const hearth_ray& bad, const char* text)
+    {
+        EXPECT_EQ(queries_.castRay(bad, hit, nullptr, &text_), HEARTH_ERROR_USAGE);
+        EXPECT_THAT(text_, HasSubstr(text));
+    };
+    refuses({{0, 0, 9}, {0, 0, 0}, 0, 100}, "its direction is 0");
+    refuses({{NAN, 0, 9}, {0, 0, 1}, 0, 100}, "not finite");
+    refuses({{0, 0, 9}, {0, 0, 1}, -1, 100}, "t_min of a ray is below 0");
+    refuses({{0, 0, 9}, {0, 0, 1}, 2, 1}, "t_max below t_min");
+    hearth_cast cast = HEARTH_CAST_INIT;
+    cast.flags = 4;
+    EXPECT_EQ(queries_.castRay(ray, hit, &cast, &text_), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(text_, HasSubstr("flags of cast"));
+    cast.struct_size = 3;
+    EXPECT_EQ(queries_.castRay(ray, hit, &cast), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(queries_.castRays(nullptr, 1, nullptr, &hit), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(queries_.castRays(nullptr, 0, nullptr, nullptr), HEARTH_OK);
+
+    hearth_box box{}, before{};
+    EXPECT_EQ(queries_.getBounds(5, 2, box, &text_), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(text_, HasSubstr("the pack has 6"));
+    ASSERT_EQ(queries_.getBounds(0, 6, before), HEARTH_OK);
+    hearth_move moves[2] = {{0, {{1, 0, 0, 90}, {0, 1, 0, 0}, {0, 0, 1, 0}}}, {6, {{1}, {0, 1}, {0, 0, 1}}}};
+    EXPECT_EQ(queries_.place(moves, 2, nullptr, 0, &text_), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(text_, HasSubstr("instance 6"));
+    ASSERT_EQ(queries_.getBounds(0, 6, box), HEARTH_OK);
+    EXPECT_EQ(box.max[0], before.max[0]) << "an error moves nothing";
+    const hearth_pose pose{0, 0, nullptr, nullptr, 0, 0};
+    EXPECT_EQ(queries_.place(nullptr, 0, &pose, 1, &text_), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(text_, HasSubstr("it has no joints"));
+    EXPECT_EQ(queries_.place(nullptr, 1, nullptr, 0), HEARTH_ERROR_USAGE);
+
+    hearth_camera camera = makeFrame().camera;
+    EXPECT_EQ(hearth_camera_get_ray(&camera, 0, 1, 0, 0, &ray, nullptr, 0), HEARTH_ERROR_USAGE);
+    camera.y_fov_rad = 4;
+    EXPECT_EQ(hearth_camera_get_ray(&camera, 1, 1, 0, 0, &ray, message_, sizeof(message_)),
+              HEARTH_ERROR_USAGE);
+    EXPECT_THAT(message_, HasSubstr("y_fov_rad"));
+    EXPECT_EQ(hearth_queries_create(pack_, nullptr, &handle_, nullptr, 0), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_pack_close(pack_), HEARTH_ERROR_IN_USE);
+    EXPECT_THAT(hearth_pack_last_error(pack_), HasSubstr("1 queries object is alive"));
+}
+
+TEST_F(CQueriesTest, damagedPagesAreAnError)
+{
+    PackModel model = test_.model();
+    for (const formats::PageRecord& page : model.pages)
+        model.page_bytes[static_cast<size_t>(page.offset) + page.stored_size / 2] ^= std::byte{0x55};
+    const AlignedBytes damaged = model.bytes();
+    Pack pack;
+    ASSERT_EQ(Pack::openMemory(damaged.span().data(), damaged.size(), "damaged", pack, &text_), HEARTH_OK)
+        << text_;
+    Queries queries;
+    ASSERT_EQ(Queries::create(pack, HEARTH_QUERIES_OPTIONS_INIT, queries), HEARTH_OK);
+    const hearth_ray ray{{0, 0, 9}, {0, 0, -1}, 0, 100};
+    hearth_hit hit{};
+    EXPECT_EQ(queries.castRay(ray, hit, nullptr, &text_), HEARTH_ERROR_FILE_MALFORMED);
+    EXPECT_THAT(text_, HasSubstr("damaged"));
+}
+
+} // namespace hearth::test
