@@ -70,8 +70,9 @@ HEARTH_CONSTANT uint kInputRadiance = 0;
 
 /// Sets of the compute passes over the tables of a scene, and of the debug views of clusters.
 HEARTH_CONSTANT uint kSetTables = 0;
-HEARTH_CONSTANT uint kSetOcclusion = 1; ///< culling
-HEARTH_CONSTANT uint kSetTiles = 1;     ///< material tiles
+HEARTH_CONSTANT uint kSetOcclusion = 1;  ///< culling
+HEARTH_CONSTANT uint kSetTiles = 1;      ///< material tiles
+HEARTH_CONSTANT uint kSetPickPixels = 1; ///< picks: with the bindings of kSetPixels
 /// Debug views of clusters: the attachments, with their bindings.
 HEARTH_CONSTANT uint kSetClusterAttachments = 1;
 
@@ -106,6 +107,7 @@ HEARTH_CONSTANT uint kTableProxyDraw = 24;
 HEARTH_CONSTANT uint kTableProxyChunks = 25;
 HEARTH_CONSTANT uint kTableProxyPositions = 26;
 HEARTH_CONSTANT uint kTableProxyIndices = 27;
+HEARTH_CONSTANT uint kTablePicks = 28; ///< of the pass that finds them
 
 /// Set of word copies: they have no other.
 HEARTH_CONSTANT uint kSetWordCopy = 0;

@@ -70,6 +70,15 @@ struct CullStatisticsPush
     uint instance_count; ///< 0 where the other pass counts them
 };
 
+/// Rectangle of pixels whose triangles are found.
+struct PickPush
+{
+    uint x;
+    uint y;
+    uint width;
+    uint height;
+};
+
 /// Listing of proxies that cast shadows.
 struct ListProxiesPush
 {

@@ -307,6 +307,18 @@ hearth_result recordParts(const char* function, FrameProgress before, FrameProgr
     return call(scene->renderer->message(), function, work);
 }
 
+Status checkPixels(const hearth_pixels& pixels, VkExtent2D extent)
+{
+    if (pixels.x >= extent.width || pixels.y >= extent.height || pixels.width > extent.width - pixels.x ||
+        pixels.height > extent.height - pixels.y)
+        return usage("the pixels are not all inside of the targets");
+    const uint64_t count = uint64_t{pixels.width} * pixels.height;
+    if (count == 0 || count > shared::kMaxPicks)
+        return usage(std::to_string(count) + " pixels are not from 1 to " +
+                     std::to_string(shared::kMaxPicks));
+    return success();
+}
+
 } // namespace
 
 hearth_result hearth_record_frame(hearth_scene* scene, hearth_targets* targets, VkCommandBuffer commands,
@@ -421,6 +433,34 @@ hearth_result hearth_record_counters(hearth_scene* scene, VkCommandBuffer comman
                     gpu::barrier(device, commands, VK_PIPELINE_STAGE_TRANSFER_BIT,
                                  VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT,
                                  VK_ACCESS_HOST_READ_BIT);
+                    return success();
+                });
+}
+
+hearth_result hearth_record_picks(hearth_scene* scene, hearth_targets* targets, VkCommandBuffer commands,
+                                  const hearth_pixels* pixels, VkBuffer destination, VkDeviceSize offset)
+{
+    if (scene == nullptr)
+        return HEARTH_ERROR_USAGE;
+    return call(scene->renderer->message(), __func__,
+                [&]() -> Status
+                {
+                    if (targets == nullptr || commands == VK_NULL_HANDLE || pixels == nullptr ||
+                        destination == VK_NULL_HANDLE)
+                        return usage("targets, commands, pixels or destination is NULL");
+                    if (!targets->targets.options().keeps_visibility)
+                        return usage(
+                            "the targets lack HEARTH_TARGETS_KEEP_VISIBILITY: create them with it, or cast "
+                            "a ray (hearth_camera_get_ray)");
+                    if (!scene->picks)
+                        return usage("hearth_scene_prepare_picks has not prepared the scene");
+                    if (targets->scene.lock() != scene->scene || scene->parts_recorded != kNothing)
+                        return usage("no whole frame of the scene has been recorded with the targets");
+                    HEARTH_TRY(checkPixels(*pixels, targets->targets.extent()));
+                    const VkRect2D area{{static_cast<int32_t>(pixels->x), static_cast<int32_t>(pixels->y)},
+                                        {pixels->width, pixels->height}};
+                    scene->picks->record(scene->renderer->renderer->device(), commands, *scene->scene,
+                                         targets->targets, area, destination, offset);
                     return success();
                 });
 }

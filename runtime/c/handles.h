@@ -3,6 +3,7 @@
 #pragma once
 
 #include "runtime/c/call.h"
+#include "runtime/gpu/passes/pick_pass.h"
 #include "runtime/gpu/renderer.h"
 #include "runtime/pack/light_player.h"
 #include "runtime/pack/pack.h"
@@ -71,6 +72,7 @@ struct hearth_scene
     std::shared_ptr<hearth::gpu::Scene> scene; ///< the only owner
 
     uint32_t prepared_lights = 1u << HEARTH_LIGHTS_PRACTICAL; ///< bit i: light method i
+    std::optional<hearth::gpu::PickPass> picks;               ///< once they are prepared
 
     /// Frame that was begun; streamed scenes only.
     uint64_t serial = 0, completed_serial = 0;

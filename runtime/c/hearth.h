@@ -354,6 +354,10 @@ HEARTH_API hearth_result hearth_scene_get_info(const hearth_scene* scene, hearth
  * errors: USAGE, DEVICE_FAILED, OUT_OF_MEMORY. */
 HEARTH_API hearth_result hearth_scene_prepare_lights(hearth_scene* scene, uint32_t method);
 
+/* Create what hearth_record_picks needs (1.8), once for a scene.
+ * errors: USAGE, DEVICE_FAILED, OUT_OF_MEMORY. */
+HEARTH_API hearth_result hearth_scene_prepare_picks(hearth_scene* scene);
+
 /* ---- Streaming ---- */
 
 /* Begin a frame of a scene with a budget: take the pages that were read, start reads. A record call must
@@ -1211,7 +1215,7 @@ HEARTH_API hearth_result hearth_player_get_lights(hearth_player* player, double 
                                                   hearth_player_lights* lights, char* message,
                                                   size_t message_size);
 
-/* ---- Queries (1.8): bounds of a pack's instances where they stand, and rays against them, on the CPU ----
+/* ---- Queries (1.8): bounds, rays and picked pixels of a pack's instances where they stand, on the CPU ----
  *
  * Queries hold transforms and poses of their own, at rest at first: pass them the moves and poses of frames.
  * They need neither renderer nor scene. One thread at a time uses an object; a game may have several of a
@@ -1423,5 +1427,44 @@ typedef struct hearth_frame_counters
  * caller (usage TRANSFER_DST), visible to the host once the commands have completed. errors: USAGE. */
 HEARTH_API hearth_result hearth_record_counters(hearth_scene* scene, VkCommandBuffer commands,
                                                 VkBuffer destination, VkDeviceSize offset);
+
+/* Pixels that one hearth_record_picks looks at, at most (1.8). */
+#define HEARTH_MAX_PICKS 4096u
+
+/* Triangle that a pixel shows (1.8): hearth_queries_find_pick returns the point. */
+typedef struct hearth_pick
+{
+    uint32_t instance; /* UINT32_MAX: the sky */
+    uint32_t cluster;
+    uint32_t triangle; /* of the cluster */
+    uint32_t reserved; /* 0 */
+} hearth_pick;
+
+/* Pixels x to x + width - 1 and y to y + height - 1 of the targets' `width` and `height`. */
+typedef struct hearth_pixels
+{
+    uint32_t x, y;
+    uint32_t width, height; /* above 0; together HEARTH_MAX_PICKS at most */
+} hearth_pixels;
+
+/* Record a copy of what pixels of a whole frame show (1.8), after it and before the scene's next frame: a
+ * hearth_pick each, row by row from the top, to `offset` (a multiple of 4) of a buffer of the caller (usage
+ * TRANSFER_DST), visible to the host once the commands have completed. Outside a render pass; clobbers
+ * compute state. Needs hearth_scene_prepare_picks, and targets with HEARTH_TARGETS_KEEP_VISIBILITY, which on
+ * tile-based GPUs costs 4 bytes a pixel to store; without it, cast a ray (hearth_camera_get_ray).
+ * errors: USAGE. */
+HEARTH_API hearth_result hearth_record_picks(hearth_scene* scene, hearth_targets* targets,
+                                             VkCommandBuffer commands, const hearth_pixels* pixels,
+                                             VkBuffer destination, VkDeviceSize offset);
+
+/* Find the point of the pick of pixel (x, y) that the pixel's center shows (1.8): hearth_hit as of the ray
+ * through it. The instances stand as in the frame (hearth_queries_place). Waits for nothing.
+ * width, height  of the targets
+ * errors: USAGE, also if there is no such triangle; FILE_MALFORMED, if the page of the triangle is
+ * damaged. */
+HEARTH_API hearth_result hearth_queries_find_pick(hearth_queries* queries, const hearth_camera* camera,
+                                                  uint32_t width, uint32_t height, uint32_t x, uint32_t y,
+                                                  const hearth_pick* pick, hearth_hit* hit, char* message,
+                                                  size_t message_size);
 
 #endif

@@ -273,7 +273,7 @@ public:
     }
 };
 
-/// Bounds and rays of a pack, which outlives them.
+/// Bounds, rays and picked pixels of a pack, which outlives them.
 class Queries : public Handle<hearth_queries, hearth_queries_destroy>
 {
 public:
@@ -314,6 +314,18 @@ public:
         return callWithMessage(
             message, [&](char* text, size_t size)
             { return hearth_queries_cast_rays(get(), rays, ray_count, cast, hits, text, size); });
+    }
+
+    /// Find the point of the pick of pixel (x, y) in a frame whose targets have this size.
+    [[nodiscard]] hearth_result findPick(const hearth_camera& camera, uint32_t width, uint32_t height,
+                                         uint32_t x, uint32_t y, const hearth_pick& pick, hearth_hit& hit,
+                                         std::string* message = nullptr)
+    {
+        return callWithMessage(message,
+                               [&](char* text, size_t size) {
+                                   return hearth_queries_find_pick(get(), &camera, width, height, x, y, &pick,
+                                                                   &hit, text, size);
+                               });
     }
 
     /// Cast one ray.
@@ -449,6 +461,13 @@ public:
                                                const hearth_frame& frame)
     {
         return hearth_record_prefetch(get(), targets.get(), commands, &frame);
+    }
+    [[nodiscard]] hearth_result preparePicks() { return hearth_scene_prepare_picks(get()); }
+    [[nodiscard]] hearth_result recordPicks(Targets& targets, VkCommandBuffer commands,
+                                            const hearth_pixels& pixels, VkBuffer destination,
+                                            VkDeviceSize offset)
+    {
+        return hearth_record_picks(get(), targets.get(), commands, &pixels, destination, offset);
     }
     [[nodiscard]] hearth_result recordCounters(VkCommandBuffer commands, VkBuffer destination,
                                                VkDeviceSize offset)

@@ -90,9 +90,11 @@ Status checkSerials(const hearth_scene& scene, uint64_t serial, uint64_t complet
     return success();
 }
 
-uint64_t allocatedBytes(const gpu::Scene& scene)
+uint64_t allocatedBytes(const hearth_scene& handle)
 {
-    return scene.arena.allocatedBytes() + (scene.stream == nullptr ? 0 : scene.stream->allocatedBytes()) +
+    const gpu::Scene& scene = *handle.scene;
+    return (handle.picks ? handle.picks->allocatedBytes() : 0) + scene.arena.allocatedBytes() +
+           (scene.stream == nullptr ? 0 : scene.stream->allocatedBytes()) +
            (scene.shadows == nullptr ? 0 : scene.shadows->allocatedBytes());
 }
 
@@ -145,6 +147,24 @@ hearth_result hearth_scene_prepare_lights(hearth_scene* scene, uint32_t method)
                 });
 }
 
+hearth_result hearth_scene_prepare_picks(hearth_scene* scene)
+{
+    if (scene == nullptr)
+        return HEARTH_ERROR_USAGE;
+    return call(scene->renderer->message(), __func__,
+                [&]() -> Status
+                {
+                    if (scene->picks)
+                        return success();
+                    const gpu::Renderer& renderer = *scene->renderer->renderer;
+                    HEARTH_ASSIGN_OR_RETURN(
+                        gpu::PickPass made,
+                        gpu::PickPass::create(renderer.device(), renderer.layouts(), *scene->scene));
+                    scene->picks.emplace(std::move(made));
+                    return success();
+                });
+}
+
 hearth_result hearth_scene_release_staging(hearth_scene* scene)
 {
     if (scene == nullptr)
@@ -179,7 +199,7 @@ hearth_result hearth_scene_get_info(const hearth_scene* scene, hearth_scene_info
                              .decoded_textures = scene->scene->decoded_textures,
                              .box_min = {box.min.x, box.min.y, box.min.z},
                              .box_max = {box.max.x, box.max.y, box.max.z},
-                             .allocated_bytes = allocatedBytes(*scene->scene)};
+                             .allocated_bytes = allocatedBytes(*scene)};
                     return success();
                 });
 }

@@ -124,6 +124,11 @@ static_assert(offsetof(hearth_frame_counters, early_clusters) == offsetof(FrameC
 
 static_assert(sizeof(hearth_transform) == sizeof(Affine3d) && alignof(hearth_transform) == alignof(Affine3d));
 
+static_assert(HEARTH_MAX_PICKS == shared::kMaxPicks);
+static_assert(sizeof(hearth_pick) == sizeof(shared::Pick) &&
+              offsetof(hearth_pick, cluster) == offsetof(shared::Pick, cluster) &&
+              offsetof(hearth_pick, triangle) == offsetof(shared::Pick, triangle));
+
 // defaults
 constexpr hearth_scene_options kSceneDefaults = HEARTH_SCENE_OPTIONS_INIT;
 static_assert(kSceneDefaults.max_visible_clusters == (1u << 22) && kSceneDefaults.max_loads == 32 &&

@@ -33,6 +33,7 @@ const std::vector<Layer>& layers()
         {"formats/gpu_shared/receivers", {"formats/gpu_shared"}},
         {"formats/gpu_shared/probes", {"formats/gpu_shared"}},
         {"formats/gpu_shared/shadows", {"formats/gpu_shared"}},
+        {"formats/gpu_shared/queries", {"formats/gpu_shared"}},
         {"formats/records", {"formats/base", "formats/gpu_shared"}},
         {"formats/texels", {"formats/base", "formats/records"}},
         {"formats/container", {"formats/base", "formats/records"}},

@@ -114,7 +114,7 @@ void writeTables(const Device& device, const TableView& from, VkDescriptorSet se
     {
         const Buffer* buffer = tableBuffer(from, table);
         if (buffer == nullptr)
-            HEARTH_ASSERT(table == shared::kTableStatistics);
+            HEARTH_ASSERT(table == shared::kTableStatistics || table == shared::kTablePicks);
         else if (isUniform(table))
             writer.uniform(table, *buffer);
         else

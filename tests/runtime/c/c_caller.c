@@ -402,6 +402,17 @@ static hearth_result stream(c_caller* caller, hearth_scene* scene, hearth_target
     return hearth_scene_begin_frame(scene, serial, serial - 1);
 }
 
+/* The readback has colour, visibility, counters and picks. */
+static VkDeviceSize pick_offset(const c_image* image)
+{
+    return (VkDeviceSize)image->width * image->height * 8 + sizeof(hearth_frame_counters);
+}
+
+static VkDeviceSize readback_bytes(const c_image* image)
+{
+    return pick_offset(image) + (VkDeviceSize)image->width * image->height * sizeof(hearth_pick);
+}
+
 static hearth_result record_frame(hearth_scene* scene, hearth_targets* targets, VkCommandBuffer commands,
                                   const c_image* image)
 {
@@ -413,6 +424,24 @@ static hearth_result record_frame(hearth_scene* scene, hearth_targets* targets, 
         result = hearth_record_visibility(scene, targets, commands, &image->frame);
     if (result == HEARTH_OK)
         result = hearth_record_materials(scene, targets, commands, &image->frame);
+    return result;
+}
+
+/* Records the picks of all pixels behind the images and the counters, in bands of rows. */
+static hearth_result record_picks(hearth_scene* scene, hearth_targets* targets, VkCommandBuffer commands,
+                                  const c_image* image, VkBuffer destination)
+{
+    const uint32_t rows = HEARTH_MAX_PICKS / image->width;
+    hearth_pixels band = {0, 0, 0, 0};
+    hearth_result result = hearth_scene_prepare_picks(scene);
+    band.width = image->width;
+    for (; result == HEARTH_OK && band.y < image->height; band.y += rows)
+    {
+        band.height = band.y + rows < image->height ? rows : image->height - band.y;
+        result =
+            hearth_record_picks(scene, targets, commands, &band, destination,
+                                pick_offset(image) + (VkDeviceSize)band.y * band.width * sizeof(hearth_pick));
+    }
     return result;
 }
 
@@ -428,6 +457,8 @@ static hearth_result record(c_caller* caller, hearth_scene* scene, hearth_target
         result = record_frame(scene, targets, commands, image);
     if (result == HEARTH_OK)
         result = hearth_record_counters(scene, commands, memory->buffer, 2 * image_bytes);
+    if (result == HEARTH_OK && image->picks != NULL)
+        result = record_picks(scene, targets, commands, image, memory->buffer);
     if (result == HEARTH_OK)
     {
         copy_image(caller, &images.color, image, memory->buffer, 0);
@@ -445,6 +476,8 @@ static void take(const readback* memory, c_image* image)
     memcpy(image->color, memory->mapped, image_bytes);
     memcpy(image->visibility, memory->mapped + image_bytes, image_bytes);
     memcpy(&image->counters, memory->mapped + 2 * image_bytes, sizeof(image->counters));
+    if (image->picks != NULL)
+        memcpy(image->picks, memory->mapped + pick_offset(image), image_bytes / 4 * sizeof(hearth_pick));
 }
 
 static hearth_result draw_scene(c_caller* caller, hearth_scene* scene, hearth_targets* targets,
@@ -455,7 +488,7 @@ static hearth_result draw_scene(c_caller* caller, hearth_scene* scene, hearth_ta
     hearth_result result = HEARTH_OK;
     queries.queryType = VK_QUERY_TYPE_TIMESTAMP;
     queries.queryCount = HEARTH_TIMESTAMP_COUNT;
-    if (create_readback(caller, (VkDeviceSize)image->width * image->height * 8 + 16, &memory) < 0 ||
+    if (create_readback(caller, readback_bytes(image), &memory) < 0 ||
         caller->vkCreateQueryPool(caller->device, &queries, NULL, &image->frame.timestamps) < 0)
         result = HEARTH_ERROR_DEVICE_FAILED;
     if (result == HEARTH_OK && image->scene.memory_budget > 0)
@@ -481,10 +514,12 @@ hearth_result c_caller_draw(c_caller* caller, hearth_renderer* renderer, hearth_
     hearth_targets_description description = HEARTH_TARGETS_DESCRIPTION_INIT;
     description.width = image->width;
     description.height = image->height;
-    description.flags = HEARTH_TARGETS_KEEP_VISIBILITY;
+    description.flags = HEARTH_TARGETS_KEEP_VISIBILITY | image->targets_flags;
     hearth_result result = hearth_targets_create(renderer, &description, &targets);
     if (result == HEARTH_OK)
         result = upload(caller, renderer, pack, image, &scene);
+    if (result == HEARTH_OK && image->frame.light_method != HEARTH_LIGHTS_PRACTICAL)
+        result = hearth_scene_prepare_lights(scene, image->frame.light_method);
     if (result == HEARTH_OK)
         result = draw_scene(caller, scene, targets, image);
     hearth_scene_destroy(scene);

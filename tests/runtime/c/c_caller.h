@@ -34,10 +34,12 @@ typedef struct c_image
     hearth_scene_options scene;
     hearth_frame frame; /* its timestamps are set */
     uint32_t width, height;
-    int in_parts; /* record the frame in three parts */
+    int in_parts;           /* record the frame in three parts */
+    uint32_t targets_flags; /* HEARTH_TARGETS_*, beside KEEP_VISIBILITY */
 
     uint32_t* color; /* width * height, the caller's array; also below */
     uint32_t* visibility;
+    hearth_pick* picks; /* or NULL */
     uint64_t ticks[HEARTH_TIMESTAMP_COUNT];
     hearth_frame_counters counters;
     hearth_stream_counters streaming; /* with a budget */

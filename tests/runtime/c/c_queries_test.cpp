@@ -1,9 +1,11 @@
-// Tests rays and bounds through hearth.h against the images of frames.
+// Tests rays, bounds and picked pixels through hearth.h against the images of frames.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/c/hearth.hpp"
 #include "runtime/pack/page_graph.h"
 #include "tests/runtime/c/c_fixture.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace hearth::test
@@ -49,6 +51,29 @@ protected:
         return hits;
     }
 
+    /// Draw as drawInC, and return the picks of all pixels.
+    std::vector<hearth_pick> drawPicks(const hearth_frame& frame,
+                                       const hearth_scene_options& scene = HEARTH_SCENE_OPTIONS_INIT,
+                                       uint32_t targets_flags = 0)
+    {
+        std::vector<hearth_pick> picks(kWidth * kHeight);
+        color_.assign(picks.size(), 0);
+        visibility_.assign(picks.size(), 0);
+        c_image image{};
+        image.scene = scene;
+        image.frame = frame;
+        image.width = kWidth;
+        image.height = kHeight;
+        image.in_parts = in_parts_ ? 1 : 0;
+        image.targets_flags = targets_flags;
+        image.color = color_.data();
+        image.visibility = visibility_.data();
+        image.picks = picks.data();
+        EXPECT_EQ(c_caller_draw(caller_, renderer_, pack_, &image), HEARTH_OK)
+            << hearth_last_error(renderer_);
+        return picks;
+    }
+
     hearth_queries* handle_ = nullptr;
     Queries queries_;
     std::string text_;
@@ -91,6 +116,140 @@ TEST_F(CQueriesTest, raysHitWhatPixelsShow)
         EXPECT_GT(covered, hits.size() / 8);
         EXPECT_LT(covered, hits.size());
     }
+}
+
+TEST_F(CQueriesTest, picksAreTheTrianglesOfTheVisibilityBuffer)
+{
+    hearth_frame frame = makeFrame();
+    const auto seen = drawInCpp({}).seen();
+    const auto expectSeen = [&](const std::vector<hearth_pick>& picks, const char* way)
+    {
+        size_t different = 0, sky = 0;
+        for (size_t i = 0; i < picks.size(); ++i)
+        {
+            const bool is_sky = visibility_[i] == 0xFFFFFFFFu;
+            sky += is_sky;
+            different += is_sky
+                             ? picks[i].instance != UINT32_MAX
+                             : std::array{picks[i].instance, picks[i].cluster, picks[i].triangle} != seen[i];
+        }
+        EXPECT_EQ(different, 0u) << way;
+        EXPECT_GT(sky, picks.size() / 8) << way;
+        EXPECT_LT(sky, picks.size() - picks.size() / 8) << way;
+    };
+    for (const uint32_t way : {HEARTH_FRAME_MERGED, HEARTH_FRAME_SEPARATE, HEARTH_FRAME_ONE_SET})
+    {
+        hearth_renderer_description description = c_caller_description(caller_);
+        description.frame_way = way;
+        recreateRenderer(description);
+        expectSeen(drawPicks(frame), "whole");
+    }
+    in_parts_ = true;
+    expectSeen(drawPicks(frame, HEARTH_SCENE_OPTIONS_INIT, HEARTH_TARGETS_SPLIT), "in parts");
+}
+
+TEST_F(CQueriesTest, allLightMethodsKeepWhatPicksRead)
+{
+    hearth_renderer_description description = c_caller_description(caller_);
+    description.features = HEARTH_FEATURE_DEFERRED;
+    recreateRenderer(description);
+    hearth_frame frame = makeFrame();
+    const auto seen = drawInCpp({}).seen();
+    constexpr std::pair<uint32_t, uint32_t> kMethods[] = {
+        {HEARTH_LIGHTS_TILED_FORWARD, HEARTH_TARGETS_SPLIT},
+        {HEARTH_LIGHTS_CLUSTERED_DEFERRED, HEARTH_TARGETS_SPLIT | HEARTH_TARGETS_DEFERRED},
+        {HEARTH_LIGHTS_TILE_DEFERRED, HEARTH_TARGETS_TILE_DEFERRED},
+        {HEARTH_LIGHTS_STACK, HEARTH_TARGETS_STACK},
+        {HEARTH_LIGHTS_ENCODED_PREPASS, HEARTH_TARGETS_ENCODED_PREPASS}};
+    for (const auto& [method, flags] : kMethods)
+    {
+        frame.light_method = method;
+        const std::vector<hearth_pick> picks = drawPicks(frame, HEARTH_SCENE_OPTIONS_INIT, flags);
+        size_t different = 0, covered = 0;
+        for (size_t i = 0; i < picks.size(); ++i)
+            if (picks[i].instance != UINT32_MAX)
+            {
+                ++covered;
+                different += std::array{picks[i].instance, picks[i].cluster, picks[i].triangle} != seen[i];
+            }
+        EXPECT_EQ(different, 0u) << method;
+        EXPECT_GT(covered, picks.size() / 8) << method;
+    }
+}
+
+TEST_F(CQueriesTest, pickedPointsAreWhereRaysHit)
+{
+    hearth_frame frame = sourceFrame();
+    const std::vector<hearth_pick> picks = drawPicks(frame);
+    hearth_cast cast = HEARTH_CAST_INIT;
+    cast.flags = HEARTH_CAST_FRONT_SIDES;
+    const std::vector<hearth_hit> hits = castPixels(frame, cast);
+    size_t same = 0, apart = 0, covered = 0;
+    for (uint32_t i = 0; i < picks.size(); ++i)
+    {
+        hearth_hit point{};
+        ASSERT_EQ(
+            queries_.findPick(frame.camera, kWidth, kHeight, i % kWidth, i / kWidth, picks[i], point, &text_),
+            HEARTH_OK)
+            << text_;
+        ASSERT_EQ(point.instance, picks[i].instance);
+        if (point.instance == UINT32_MAX)
+            continue;
+        ++covered;
+        same += point.cluster == hits[i].cluster && point.triangle == hits[i].triangle;
+        EXPECT_EQ(point.cluster, picks[i].cluster);
+        // the rasterizer's edges are rounded to 1/256 of a pixel: a neighbour of the triangle that the ray
+        // hits
+        apart += !(std::abs(point.t - hits[i].t) < 1e-2f);
+        EXPECT_GE(std::min({point.weights[0], point.weights[1], 1 - point.weights[0] - point.weights[1]}),
+                  -1e-5f);
+    }
+    EXPECT_GT(covered, picks.size() / 8);
+    EXPECT_GT(same, covered - covered / 20);
+    EXPECT_LE(apart, kMaxEdgePixels);
+}
+
+TEST_F(CQueriesTest, picksThatCannotBeAreRefused)
+{
+    hearth_targets_description description = HEARTH_TARGETS_DESCRIPTION_INIT;
+    description.width = description.height = 128;
+    hearth_targets *without = nullptr, *targets = nullptr;
+    ASSERT_EQ(hearth_targets_create(renderer_, &description, &without), HEARTH_OK);
+    ASSERT_EQ(createTargets(renderer_, 128, 128, &targets), HEARTH_OK);
+    hearth_scene* scene = nullptr;
+    const hearth_scene_options options = HEARTH_SCENE_OPTIONS_INIT;
+    const VkCommandBuffer commands = c_caller_begin(caller_);
+    ASSERT_EQ(hearth_scene_upload(renderer_, pack_, commands, &options, &scene), HEARTH_OK);
+    const auto buffer = reinterpret_cast<VkBuffer>(uintptr_t{1}); // refused before it is used
+    const auto refused = [&](hearth_targets* into, const hearth_pixels& pixels)
+    {
+        EXPECT_EQ(hearth_record_picks(scene, into, commands, &pixels, buffer, 0), HEARTH_ERROR_USAGE);
+        return std::string(hearth_last_error(renderer_));
+    };
+    EXPECT_THAT(refused(without, {0, 0, 1, 1}),
+                HasSubstr("HEARTH_TARGETS_KEEP_VISIBILITY: create them with it"));
+    EXPECT_THAT(refused(targets, {0, 0, 1, 1}), HasSubstr("hearth_scene_prepare_picks"));
+    ASSERT_EQ(hearth_scene_prepare_picks(scene), HEARTH_OK);
+    ASSERT_EQ(hearth_scene_prepare_picks(scene), HEARTH_OK) << "again";
+    EXPECT_THAT(refused(targets, {0, 0, 1, 1}), HasSubstr("no whole frame"));
+    const hearth_frame frame = makeFrame();
+    ASSERT_EQ(hearth_record_frame(scene, targets, commands, &frame), HEARTH_OK);
+    EXPECT_THAT(refused(targets, {0, 0, 0, 1}), HasSubstr("0 pixels are not from 1 to 4096"));
+    EXPECT_THAT(refused(targets, {0, 0, 128, 33}), HasSubstr("4224 pixels"));
+    EXPECT_THAT(refused(targets, {100, 0, 29, 1}), HasSubstr("not all inside"));
+    EXPECT_THAT(refused(targets, {0, 0xFFFFFFFFu, 1, 2}), HasSubstr("not all inside"));
+    EXPECT_THAT(refused(nullptr, {0, 0, 1, 1}), HasSubstr("NULL"));
+    ASSERT_EQ(c_caller_submit(caller_), VK_SUCCESS);
+    hearth_hit hit{};
+    const hearth_pick wrong{0, 0xFFFFFFu, 0, 0}, sky{UINT32_MAX, 0, 0, 0};
+    EXPECT_EQ(queries_.findPick(frame.camera, 128, 128, 3, 4, wrong, hit, &text_), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(text_, HasSubstr("has no cluster"));
+    EXPECT_EQ(queries_.findPick(frame.camera, 128, 128, 3, 4, sky, hit), HEARTH_OK);
+    EXPECT_EQ(hit.instance, UINT32_MAX);
+    EXPECT_EQ(hearth_scene_prepare_picks(nullptr), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(hearth_scene_destroy(scene), HEARTH_OK);
+    EXPECT_EQ(hearth_targets_destroy(targets), HEARTH_OK);
+    EXPECT_EQ(hearth_targets_destroy(without), HEARTH_OK);
 }
 
 TEST_F(CQueriesTest, hitsNameRecordsOfThePack)

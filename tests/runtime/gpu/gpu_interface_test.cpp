@@ -1,6 +1,7 @@
 // Tests that shaders and C++ agree about everything that crosses between them: reflects every shader of the
 // renderer and compares it with the layouts, push constants, specialization constants and structs of C++.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/passes/pick_pass.h"
 #include "runtime/gpu/receivers/receiver_pass.h"
 #include "runtime/gpu/statistics/cull_statistics_pass.h"
 #include "runtime/gpu/statistics/light_statistics_pass.h"
@@ -148,6 +149,7 @@ protected:
         const auto scene = uploadWith(recorded, deformed.pack(), {.shadows = {.max_maps = 4}});
         prepareLights(recorded, *scene);
         EXPECT_TRUE(gpu::CullStatisticsPass::create(recorded.device(), *scene).ok());
+        EXPECT_TRUE(gpu::PickPass::create(recorded.device(), recorded.layouts(), *scene).ok());
         const auto targets = recorded.createTargets({16, 16}, {.keeps_visibility = true});
         ASSERT_TRUE(targets.ok());
         EXPECT_TRUE(

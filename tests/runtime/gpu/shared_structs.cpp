@@ -7,6 +7,7 @@
 #include "formats/gpu_shared/gather.h"
 #include "formats/gpu_shared/light_cells.h"
 #include "formats/gpu_shared/material_tiles.h"
+#include "formats/gpu_shared/queries/picks.h"
 #include "formats/gpu_shared/push_constants.h"
 #include "formats/gpu_shared/receivers/receiver_points.h"
 #include "formats/gpu_shared/shading.h"
@@ -83,6 +84,7 @@ std::vector<SharedStruct> pushStructs()
         HEARTH_STRUCT(WordCopyPush, first_region),
         HEARTH_STRUCT(PageRequestPush, first_item, item_count, first_material, default_material),
         HEARTH_STRUCT(CullStatisticsPush, first_item, item_count, instance_count),
+        HEARTH_STRUCT(PickPush, x, y, width, height),
         HEARTH_STRUCT(ListProxiesPush, instance_count),
         HEARTH_STRUCT(SkinningPlanPush, bin_count, first_bin, phase),
         HEARTH_STRUCT(PyramidPush, width, height),
@@ -116,6 +118,7 @@ std::vector<SharedStruct> tableStructs()
         HEARTH_STRUCT(WorkResult, mask_low, mask_high, offset, later_low, later_high),
         HEARTH_STRUCT(CopyRegion, source, target, words, reserved),
         HEARTH_STRUCT(VisibleCluster, instance, cluster),
+        HEARTH_STRUCT(Pick, instance, cluster, triangle, reserved),
         HEARTH_STRUCT(Bin, first_item, item_count),
         HEARTH_STRUCT(BinDraw, vertex_count, instance_count, first_vertex, first_instance, first_slot,
                       reserved0, reserved1, reserved2),
