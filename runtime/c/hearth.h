@@ -1305,8 +1305,8 @@ typedef struct hearth_cast
 {
     uint32_t struct_size;
     uint32_t flags; /* HEARTH_CAST_* */
-    /* Of the pack, with a budget: rays meet the finest level that it holds since its last begin_frame. NULL:
-     * the source's triangles. */
+    /* Of the pack, with a budget: rays meet the finest level that it holds since its last begin_frame. The call
+     * uses it as others do, on its thread. NULL: the source's triangles. */
     const hearth_scene* scene;
     /* Called for hits in no order, nearer than those that it has accepted; 0: the ray goes on. Calls no
      * function of the library. NULL: all are accepted. */

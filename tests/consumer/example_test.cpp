@@ -1,5 +1,5 @@
-// Tests the example that is installed with the runtime: a separate project that renders the same image as
-// hearth-render.
+// Tests the examples that are installed with the runtime, a separate project: one renders the same image as
+// hearth-render, one finds what a ray hits.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/compare/image.h"
 #include "tests/consumer/installation.h"
@@ -95,6 +95,16 @@ TEST_F(Example, showsAllOfAPackWithoutCameras)
             EXPECT_FALSE(is_white && is_margin) << "the image cuts it at " << x << " " << y;
         }
     EXPECT_GT(surface, size_t{kWidth} * kHeight / 20);
+}
+
+TEST_F(Example, castsARayAtWhatHasAName)
+{
+    folder().write("floor.obj", "v -1 2 -1\nv -1 2 1\nv 1 2 1\nf 1 2 3\n");
+    cook("floor.obj", "floor.hearth");
+    EXPECT_EQ(run("examples/cast_ray floor.hearth floor"), "node floor\nmaterial default\nposition 0 2 0\n");
+    const ProgramEnd missing = shell("examples/cast_ray floor.hearth wall");
+    EXPECT_EQ(missing.exit_code, 1);
+    EXPECT_NE(missing.err.find("the pack has no instance called wall"), std::string::npos) << missing.err;
 }
 
 TEST_F(Example, saysWhatIsWrong)
