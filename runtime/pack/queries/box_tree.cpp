@@ -10,43 +10,23 @@ namespace hearth::pack
 namespace
 {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
-
-// Rounding of a difference and a product: T. Ize, "Robust BVH ray traversal", 2013, with room.
-constexpr double kRounding = 1e-15;
-
 // Small leaves: visiting an item costs more than testing a node.
 constexpr uint32_t kMaxLeafItems = 2;
+
+/// Return 1 / value, at most so much that its product with a float is finite.
+double invert(double value)
+{
+    constexpr double kHuge = 1e200;
+    return std::abs(value) * kHuge > 1 ? 1 / value : kHuge;
+}
 
 } // namespace
 
 BoxRay::BoxRay(const Ray& ray)
     : origin{ray.origin.x, ray.origin.y, ray.origin.z},
-      inverse{1 / ray.direction.x, 1 / ray.direction.y, 1 / ray.direction.z},
+      inverse{invert(ray.direction.x), invert(ray.direction.y), invert(ray.direction.z)},
       begin(ray.begin)
 {
-}
-
-double findEntry(const BoxRay& ray, const Box3& box, double end)
-{
-    double entry = ray.begin, exit = end;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-        const auto a = static_cast<size_t>(axis);
-        const double low = double{box.min[axis]} - ray.origin[a],
-                     high = double{box.max[axis]} - ray.origin[a];
-        if (std::isinf(ray.inverse[a]))
-        {
-            if (low > 0 || high < 0)
-                return kNever;
-            continue;
-        }
-        const double first = low * ray.inverse[a], second = high * ray.inverse[a];
-        const double near = std::min(first, second), far = std::max(first, second);
-        entry = std::max(entry, near - std::abs(near) * kRounding);
-        exit = std::min(exit, far + std::abs(far) * kRounding);
-    }
-    return entry <= exit ? entry : kNever;
 }
 
 BoxTree::BoxTree(std::span<const Box3> boxes)

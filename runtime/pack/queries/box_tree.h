@@ -4,6 +4,7 @@
 
 #include "formats/base/double3.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -28,13 +29,29 @@ struct BoxRay
 {
     explicit BoxRay(const Ray& ray);
 
-    std::array<double, 3> origin, inverse; ///< inverse: of the direction
+    std::array<double, 3> origin;
+    std::array<double, 3> inverse; ///< of the direction; where that is 0, huge but finite
     double begin;
 };
 
-/// Return the t at which a ray enters a box, ray.begin inside of it; infinity if it does not before `end`. No
-/// point of the ray that lies in the box is missed by rounding.
-double findEntry(const BoxRay& ray, const Box3& box, double end);
+/// Return the t at which a ray enters a box, or a little less, ray.begin inside of it; infinity if it does not
+/// before `end`. No point of the ray that lies in the box is missed by rounding.
+inline double findEntry(const BoxRay& ray, const Box3& box, double end)
+{
+    // of a difference and a product: T. Ize, "Robust BVH ray traversal", 2013, with room
+    constexpr double kRounding = 1e-15;
+    double entry = ray.begin, exit = end;
+    for (size_t axis = 0; axis < 3; ++axis)
+    {
+        const int a = static_cast<int>(axis);
+        const double first = (double{box.min[a]} - ray.origin[axis]) * ray.inverse[axis];
+        const double second = (double{box.max[a]} - ray.origin[axis]) * ray.inverse[axis];
+        entry = std::max(entry, std::min(first, second));
+        exit = std::min(exit, std::max(first, second));
+    }
+    entry *= 1 - kRounding;
+    return entry <= exit * (1 + kRounding) ? entry : std::numeric_limits<double>::infinity();
+}
 
 class BoxTree
 {
