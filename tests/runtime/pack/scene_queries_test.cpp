@@ -197,8 +197,8 @@ void expectRays(SceneQueries& queries, const std::vector<WorldTriangle>& triangl
             cross(triangle->corners[1] - triangle->corners[0], triangle->corners[2] - triangle->corners[0]);
         EXPECT_NEAR(std::abs(dot(point.normal, normal)), length(normal), 1e-9 * length(normal));
     }
-    EXPECT_GT(hits, count / 10) << "or little is tested";
-    EXPECT_LT(hits + ambiguous, count - count / 10);
+    EXPECT_GT(hits, count / 20) << "or little is tested";
+    EXPECT_LT(hits + ambiguous, count) << "some miss";
 }
 
 /// Rocks and a terrain at random places, some mirrored.
@@ -224,7 +224,7 @@ public:
     std::optional<formats::PackView> view;
 };
 
-constexpr uint32_t kRays = kSanitized ? 60 : 600;
+constexpr uint32_t kRays = kSanitized ? 120 : 600;
 
 } // namespace
 
@@ -317,14 +317,14 @@ TEST(SceneQueries, raysMeetWhatIsResident)
                                              [&](const formats::PackView& of, uint32_t m)
                                              { return pack::selectCut(of, m, 0, groups); });
         sizes.insert(triangles.size());
-        expectRays(queries, triangles, kRays / 6, 1.5f, random, {.resident = &resident});
+        expectRays(queries, triangles, kRays / 6, 2.5f, random, {.resident = &resident});
     }
     EXPECT_GE(sizes.size(), 3u) << "or the same is tested again";
 }
 
 TEST(SceneQueries, posedInstancesAreMetInTheirPose)
 {
-    const DeformedScene test({.rings = 24}, 5);
+    const DeformedScene test({.rings = kSanitized ? 8u : 24u}, 5);
     const formats::PackView& view = test.pack();
     std::mt19937 random(6);
     SceneQueries queries(view, kRoomy);
