@@ -34,8 +34,8 @@ struct BoxRay
     double begin;
 };
 
-/// Return the t at which a ray enters a box, or a little less, ray.begin inside of it; infinity if it does not
-/// before `end`. No point of the ray that lies in the box is missed by rounding.
+/// Return the t at which a ray enters a box, or a little less, ray.begin inside of it; infinity if it does
+/// not before `end`. No point of the ray that lies in the box is missed by rounding.
 inline double findEntry(const BoxRay& ray, const Box3& box, double end)
 {
     // of a difference and a product: T. Ize, "Robust BVH ray traversal", 2013, with room
