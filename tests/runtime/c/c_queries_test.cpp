@@ -3,10 +3,13 @@
 #include "runtime/c/hearth.hpp"
 #include "runtime/pack/page_graph.h"
 #include "tests/runtime/c/c_fixture.h"
+#include "tests/runtime/gpu/deformed_scene.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <random>
+#include <set>
 
 namespace hearth::test
 {
@@ -206,6 +209,61 @@ TEST_F(CQueriesTest, pickedPointsAreWhereRaysHit)
     }
     EXPECT_GT(covered, picks.size() / 8);
     EXPECT_GT(same, covered - covered / 20);
+    EXPECT_LE(apart, kMaxEdgePixels);
+}
+
+TEST_F(CQueriesTest, charactersArePickedInTheirPose)
+{
+    std::mt19937 random(73);
+    DeformedScene test({.tentacles = 1, .blobs = 1, .rocks = 1, .rings = 12}, 33);
+    queries_.reset();
+    ASSERT_EQ(hearth_pack_close(pack_), HEARTH_OK);
+    pack_ = nullptr;
+    const AlignedBytes& bytes = test.bytes();
+    ASSERT_EQ(hearth_pack_open_memory(bytes.span().data(), bytes.size(), "characters", &pack_, message_,
+                                      sizeof(message_)),
+              HEARTH_OK)
+        << message_;
+    const hearth_queries_options options = HEARTH_QUERIES_OPTIONS_INIT;
+    ASSERT_EQ(hearth_queries_create(pack_, &options, &handle_, nullptr, 0), HEARTH_OK);
+    queries_ = Queries(handle_);
+
+    std::vector<TestPose> poses;
+    std::vector<hearth_pose> c_poses;
+    for (const uint32_t instance : test.deformedInstances())
+        poses.push_back(poses.size() % 2 == 1 ? test.freePose(instance, random)
+                                              : test.randomPose(instance, random));
+    for (const TestPose& pose : poses)
+        c_poses.push_back({pose.instance, static_cast<uint32_t>(pose.world_from_bind.size()),
+                           reinterpret_cast<const hearth_transform*>(pose.world_from_bind.data()),
+                           pose.morph_weights.data(), static_cast<uint32_t>(pose.morph_weights.size()),
+                           pose.free ? 1u : 0u});
+    hearth_frame frame = sourceFrame();
+    frame.poses = c_poses.data();
+    frame.pose_count = static_cast<uint32_t>(c_poses.size());
+    const std::vector<hearth_pick> picks = drawPicks(frame);
+    ASSERT_EQ(queries_.place(nullptr, 0, frame.poses, frame.pose_count, &text_), HEARTH_OK) << text_;
+    hearth_cast cast = HEARTH_CAST_INIT;
+    cast.flags = HEARTH_CAST_FRONT_SIDES;
+    const std::vector<hearth_hit> hits = castPixels(frame, cast);
+    size_t covered = 0, same = 0, apart = 0;
+    std::set<uint32_t> seen;
+    for (uint32_t i = 0; i < picks.size(); ++i)
+    {
+        hearth_hit point{};
+        ASSERT_EQ(queries_.findPick(frame.camera, kWidth, kHeight, i % kWidth, i / kWidth, picks[i], point),
+                  HEARTH_OK);
+        if (point.instance == UINT32_MAX)
+            continue;
+        ++covered;
+        seen.insert(point.instance);
+        same += point.instance == hits[i].instance && point.cluster == hits[i].cluster &&
+                point.triangle == hits[i].triangle;
+        apart += !(std::abs(point.t - hits[i].t) < 1e-2f);
+    }
+    EXPECT_GT(covered, picks.size() / 32);
+    EXPECT_GT(seen.size(), poses.size() / 2) << "characters are in view";
+    EXPECT_GT(same, covered - covered / 10);
     EXPECT_LE(apart, kMaxEdgePixels);
 }
 
