@@ -37,8 +37,9 @@ Result<hearth_ray> makeRay(const shared::FrameView& view, float x, float y)
 
 } // namespace
 
-Status hearth::c::checkCamera(const hearth_camera& camera)
+Status hearth::c::checkCamera(const hearth_frame& frame)
 {
+    const hearth_camera& camera = frame.camera;
     if (!isFinite(toFloat3(camera.position)) || !isFinite(toFloat3(camera.target)) ||
         !isFinite(toFloat3(camera.up)))
         return usage("the camera's position, target or up is not finite");
@@ -46,36 +47,42 @@ Status hearth::c::checkCamera(const hearth_camera& camera)
         return usage("the camera's y_fov_rad is not above 0 and below pi");
     if (!(camera.z_near > 0) || !std::isfinite(camera.z_near))
         return usage("the camera's z_near is not above 0");
+    constexpr float kMaxShift = 1024;
+    if (!(std::abs(frame.shift[0]) <= kMaxShift && std::abs(frame.shift[1]) <= kMaxShift))
+        return usage("shift is not from -1024 to 1024");
     return success();
 }
 
-shared::Camera hearth::c::toCamera(const hearth_camera& camera)
+shared::Camera hearth::c::toCamera(const hearth_frame& frame)
 {
+    const hearth_camera& camera = frame.camera;
     return {.position = toFloat3(camera.position),
             .target = toFloat3(camera.target),
             .up = toFloat3(camera.up),
             .y_fov_rad = camera.y_fov_rad,
-            .z_near = camera.z_near};
+            .z_near = camera.z_near,
+            .shift = {frame.shift[0], frame.shift[1]}};
 }
 
-Result<hearth_ray> hearth::c::makePixelRay(const hearth_camera& camera, uint32_t width, uint32_t height,
+Result<hearth_ray> hearth::c::makePixelRay(const hearth_frame& frame, uint32_t width, uint32_t height,
                                            float x, float y)
 {
-    HEARTH_TRY(checkCamera(camera));
+    HEARTH_TRY(checkCamera(frame));
     if (width == 0 || height == 0 || !std::isfinite(x) || !std::isfinite(y))
         return usage("width or height is 0, or x or y is not finite");
-    return makeRay(shared::makeFrameView(toCamera(camera), width, height, 1, 0, 0), x, y);
+    return makeRay(shared::makeFrameView(toCamera(frame), width, height, 1, 0, 0), x, y);
 }
 
-hearth_result hearth_camera_get_ray(const hearth_camera* camera, uint32_t width, uint32_t height, float x,
-                                    float y, hearth_ray* ray, char* message, size_t message_size)
+hearth_result hearth_frame_get_ray(const hearth_frame* frame, uint32_t width, uint32_t height, float x,
+                                   float y, hearth_ray* ray, char* message, size_t message_size)
 {
     return call({message, message_size}, __func__,
                 [&]() -> Status
                 {
-                    if (camera == nullptr || ray == nullptr)
-                        return usage("camera or ray is NULL");
-                    HEARTH_ASSIGN_OR_RETURN(*ray, makePixelRay(*camera, width, height, x, y));
+                    HEARTH_TRY(checkStruct("frame", frame));
+                    if (ray == nullptr)
+                        return usage("ray is NULL");
+                    HEARTH_ASSIGN_OR_RETURN(*ray, makePixelRay(*frame, width, height, x, y));
                     return success();
                 });
 }

@@ -1,4 +1,4 @@
-// Cameras of hearth.h.
+// Cameras of frames of hearth.h.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -9,12 +9,12 @@ namespace hearth::c
 {
 
 /// errors: usage.
-Status checkCamera(const hearth_camera& camera);
+Status checkCamera(const hearth_frame& frame);
 
-shared::Camera toCamera(const hearth_camera& camera);
+shared::Camera toCamera(const hearth_frame& frame);
 
-/// Make the ray of hearth_camera_get_ray. errors: usage.
-Result<hearth_ray> makePixelRay(const hearth_camera& camera, uint32_t width, uint32_t height, float x,
+/// Make the ray of hearth_frame_get_ray. errors: usage.
+Result<hearth_ray> makePixelRay(const hearth_frame& frame, uint32_t width, uint32_t height, float x,
                                 float y);
 
 inline Float3 toFloat3(const float (&v)[3])

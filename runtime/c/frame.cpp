@@ -43,10 +43,7 @@ Status checkPost(const gpu::Renderer& renderer, const hearth_frame& frame)
 
 Status check(const hearth_renderer& renderer, const hearth_frame& frame)
 {
-    HEARTH_TRY(checkCamera(frame.camera));
-    constexpr float kMaxShift = 1024;
-    if (!(std::abs(frame.shift[0]) <= kMaxShift && std::abs(frame.shift[1]) <= kMaxShift))
-        return usage("shift is not from -1024 to 1024");
+    HEARTH_TRY(checkCamera(frame));
     if (!(frame.error_pixels >= 0) || !std::isfinite(frame.error_pixels))
         return usage("error_pixels is not 0 or more");
     if (!(frame.depth_scale > 0) || !std::isfinite(frame.depth_scale))
@@ -189,12 +186,10 @@ Status setCurve(shared::FrameView& view, const hearth_frame& frame)
 Result<shared::FrameView> makeView(const hearth_scene& scene, const gpu::FrameTargets& targets,
                                    const hearth_frame& frame)
 {
-    shared::Camera camera = toCamera(frame.camera);
-    camera.shift = {frame.shift[0], frame.shift[1]};
     const uint32_t off = frame.occlusion == HEARTH_OCCLUSION_OFF ? uint32_t{HEARTH_CULL_OCCLUSION} : 0;
     shared::FrameView view =
-        shared::makeFrameView(camera, targets.extent().width, targets.extent().height, frame.error_pixels,
-                              scene.scene->instance_count, frame.cull_flags & ~off);
+        shared::makeFrameView(toCamera(frame), targets.extent().width, targets.extent().height,
+                              frame.error_pixels, scene.scene->instance_count, frame.cull_flags & ~off);
     HEARTH_TRY(setCurve(view, frame));
     return view;
 }
@@ -451,7 +446,7 @@ hearth_result hearth_record_picks(hearth_scene* scene, hearth_targets* targets, 
                     if (!targets->targets.options().keeps_visibility)
                         return usage(
                             "the targets lack HEARTH_TARGETS_KEEP_VISIBILITY: create them with it, or cast "
-                            "a ray (hearth_camera_get_ray)");
+                            "a ray (hearth_frame_get_ray)");
                     if (!scene->picks)
                         return usage("hearth_scene_prepare_picks has not prepared the scene");
                     if (targets->scene.lock() != scene->scene || scene->parts_recorded != kNothing)

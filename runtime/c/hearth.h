@@ -1328,12 +1328,12 @@ HEARTH_API hearth_result hearth_queries_cast_rays(hearth_queries* queries, const
                                                   uint32_t ray_count, const hearth_cast* cast,
                                                   hearth_hit* hits, char* message, size_t message_size);
 
-/* Make the ray through a place of a frame's image. Its t is the distance along the view's axis, from z_near
+/* Make the ray through a place of a frame's image, by its camera and its shift alone. Its t is the distance along the view's axis, from z_near
  * on.
  * width, height  of the targets; above 0
  * x, y           pixels from the left and from the top; a pixel's center is at .5
  * errors: USAGE. */
-HEARTH_API hearth_result hearth_camera_get_ray(const hearth_camera* camera, uint32_t width, uint32_t height,
+HEARTH_API hearth_result hearth_frame_get_ray(const hearth_frame* frame, uint32_t width, uint32_t height,
                                                float x, float y, hearth_ray* ray, char* message,
                                                size_t message_size);
 
@@ -1451,7 +1451,7 @@ typedef struct hearth_pixels
  * hearth_pick each, row by row from the top, to `offset` (a multiple of 4) of a buffer of the caller (usage
  * TRANSFER_DST), visible to the host once the commands have completed. Outside a render pass; clobbers
  * compute state. Needs hearth_scene_prepare_picks, and targets with HEARTH_TARGETS_KEEP_VISIBILITY, which on
- * tile-based GPUs costs 4 bytes a pixel to store; without it, cast a ray (hearth_camera_get_ray).
+ * tile-based GPUs costs 4 bytes a pixel to store; without it, cast a ray (hearth_frame_get_ray).
  * errors: USAGE. */
 HEARTH_API hearth_result hearth_record_picks(hearth_scene* scene, hearth_targets* targets,
                                              VkCommandBuffer commands, const hearth_pixels* pixels,
@@ -1459,10 +1459,11 @@ HEARTH_API hearth_result hearth_record_picks(hearth_scene* scene, hearth_targets
 
 /* Find the point of the pick of pixel (x, y) that the pixel's center shows (1.8): hearth_hit as of the ray
  * through it. The instances stand as in the frame (hearth_queries_place). Waits for nothing.
+ * frame          its camera and its shift; all else is ignored
  * width, height  of the targets
  * errors: USAGE, also if there is no such triangle; FILE_MALFORMED, if the page of the triangle is
  * damaged. */
-HEARTH_API hearth_result hearth_queries_find_pick(hearth_queries* queries, const hearth_camera* camera,
+HEARTH_API hearth_result hearth_queries_find_pick(hearth_queries* queries, const hearth_frame* frame,
                                                   uint32_t width, uint32_t height, uint32_t x, uint32_t y,
                                                   const hearth_pick* pick, hearth_hit* hit, char* message,
                                                   size_t message_size);

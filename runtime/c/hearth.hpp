@@ -317,13 +317,13 @@ public:
     }
 
     /// Find the point of the pick of pixel (x, y) in a frame whose targets have this size.
-    [[nodiscard]] hearth_result findPick(const hearth_camera& camera, uint32_t width, uint32_t height,
+    [[nodiscard]] hearth_result findPick(const hearth_frame& frame, uint32_t width, uint32_t height,
                                          uint32_t x, uint32_t y, const hearth_pick& pick, hearth_hit& hit,
                                          std::string* message = nullptr)
     {
         return callWithMessage(message,
                                [&](char* text, size_t size) {
-                                   return hearth_queries_find_pick(get(), &camera, width, height, x, y, &pick,
+                                   return hearth_queries_find_pick(get(), &frame, width, height, x, y, &pick,
                                                                    &hit, text, size);
                                });
     }

@@ -212,17 +212,18 @@ hearth_result hearth_queries_cast_rays(hearth_queries* queries, const hearth_ray
                 });
 }
 
-hearth_result hearth_queries_find_pick(hearth_queries* queries, const hearth_camera* camera, uint32_t width,
+hearth_result hearth_queries_find_pick(hearth_queries* queries, const hearth_frame* frame, uint32_t width,
                                        uint32_t height, uint32_t x, uint32_t y, const hearth_pick* pick,
                                        hearth_hit* hit, char* message, size_t message_size)
 {
     return call({message, message_size}, __func__,
                 [&]() -> Status
                 {
-                    if (queries == nullptr || camera == nullptr || pick == nullptr || hit == nullptr)
-                        return usage("queries, camera, pick or hit is NULL");
+                    if (queries == nullptr || pick == nullptr || hit == nullptr)
+                        return usage("queries, pick or hit is NULL");
+                    HEARTH_TRY(checkStruct("frame", frame));
                     HEARTH_ASSIGN_OR_RETURN(const hearth_ray ray,
-                                            makePixelRay(*camera, width, height, static_cast<float>(x) + 0.5f,
+                                            makePixelRay(*frame, width, height, static_cast<float>(x) + 0.5f,
                                                          static_cast<float>(y) + 0.5f));
                     const formats::PackView& view = queries->pack.pack.view();
                     if (pick->instance == kInvalidIndex)

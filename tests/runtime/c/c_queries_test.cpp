@@ -42,9 +42,8 @@ protected:
     {
         std::vector<hearth_ray> rays(kWidth * kHeight);
         for (uint32_t i = 0; i < rays.size(); ++i)
-            EXPECT_EQ(hearth_camera_get_ray(&frame.camera, kWidth, kHeight,
-                                            static_cast<float>(i % kWidth) + 0.5f,
-                                            static_cast<float>(i / kWidth) + 0.5f, &rays[i], nullptr, 0),
+            EXPECT_EQ(hearth_frame_get_ray(&frame, kWidth, kHeight, static_cast<float>(i % kWidth) + 0.5f,
+                                           static_cast<float>(i / kWidth) + 0.5f, &rays[i], nullptr, 0),
                       HEARTH_OK);
         std::vector<hearth_hit> hits(rays.size());
         EXPECT_EQ(
@@ -105,6 +104,8 @@ TEST_F(CQueriesTest, raysHitWhatPixelsShow)
         frame.moves = &move;
         frame.move_count = moves ? 1 : 0;
         ASSERT_EQ(queries_.place(frame.moves, frame.move_count, nullptr, 0, &text_), HEARTH_OK) << text_;
+        frame.shift[0] = moves ? 0.25f : 0;
+        frame.shift[1] = moves ? -0.125f : 0;
         (void)drawInC(frame);
         const std::vector<hearth_hit> hits = castPixels(frame, cast);
         size_t different = 0, covered = 0;
@@ -191,9 +192,8 @@ TEST_F(CQueriesTest, pickedPointsAreWhereRaysHit)
     for (uint32_t i = 0; i < picks.size(); ++i)
     {
         hearth_hit point{};
-        ASSERT_EQ(
-            queries_.findPick(frame.camera, kWidth, kHeight, i % kWidth, i / kWidth, picks[i], point, &text_),
-            HEARTH_OK)
+        ASSERT_EQ(queries_.findPick(frame, kWidth, kHeight, i % kWidth, i / kWidth, picks[i], point, &text_),
+                  HEARTH_OK)
             << text_;
         ASSERT_EQ(point.instance, picks[i].instance);
         if (point.instance == UINT32_MAX)
@@ -251,7 +251,7 @@ TEST_F(CQueriesTest, charactersArePickedInTheirPose)
     for (uint32_t i = 0; i < picks.size(); ++i)
     {
         hearth_hit point{};
-        ASSERT_EQ(queries_.findPick(frame.camera, kWidth, kHeight, i % kWidth, i / kWidth, picks[i], point),
+        ASSERT_EQ(queries_.findPick(frame, kWidth, kHeight, i % kWidth, i / kWidth, picks[i], point),
                   HEARTH_OK);
         if (point.instance == UINT32_MAX)
             continue;
@@ -300,9 +300,9 @@ TEST_F(CQueriesTest, picksThatCannotBeAreRefused)
     ASSERT_EQ(c_caller_submit(caller_), VK_SUCCESS);
     hearth_hit hit{};
     const hearth_pick wrong{0, 0xFFFFFFu, 0, 0}, sky{UINT32_MAX, 0, 0, 0};
-    EXPECT_EQ(queries_.findPick(frame.camera, 128, 128, 3, 4, wrong, hit, &text_), HEARTH_ERROR_USAGE);
+    EXPECT_EQ(queries_.findPick(frame, 128, 128, 3, 4, wrong, hit, &text_), HEARTH_ERROR_USAGE);
     EXPECT_THAT(text_, HasSubstr("has no cluster"));
-    EXPECT_EQ(queries_.findPick(frame.camera, 128, 128, 3, 4, sky, hit), HEARTH_OK);
+    EXPECT_EQ(queries_.findPick(frame, 128, 128, 3, 4, sky, hit), HEARTH_OK);
     EXPECT_EQ(hit.instance, UINT32_MAX);
     EXPECT_EQ(hearth_scene_prepare_picks(nullptr), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_scene_destroy(scene), HEARTH_OK);
@@ -418,11 +418,10 @@ TEST_F(CQueriesTest, whatCannotBeIsRefused)
     EXPECT_THAT(text_, HasSubstr("it has no joints"));
     EXPECT_EQ(queries_.place(nullptr, 1, nullptr, 0), HEARTH_ERROR_USAGE);
 
-    hearth_camera camera = makeFrame().camera;
-    EXPECT_EQ(hearth_camera_get_ray(&camera, 0, 1, 0, 0, &ray, nullptr, 0), HEARTH_ERROR_USAGE);
-    camera.y_fov_rad = 4;
-    EXPECT_EQ(hearth_camera_get_ray(&camera, 1, 1, 0, 0, &ray, message_, sizeof(message_)),
-              HEARTH_ERROR_USAGE);
+    hearth_frame frame = makeFrame();
+    EXPECT_EQ(hearth_frame_get_ray(&frame, 0, 1, 0, 0, &ray, nullptr, 0), HEARTH_ERROR_USAGE);
+    frame.camera.y_fov_rad = 4;
+    EXPECT_EQ(hearth_frame_get_ray(&frame, 1, 1, 0, 0, &ray, message_, sizeof(message_)), HEARTH_ERROR_USAGE);
     EXPECT_THAT(message_, HasSubstr("y_fov_rad"));
     EXPECT_EQ(hearth_queries_create(pack_, nullptr, &handle_, nullptr, 0), HEARTH_ERROR_USAGE);
     EXPECT_EQ(hearth_pack_close(pack_), HEARTH_ERROR_IN_USE);
