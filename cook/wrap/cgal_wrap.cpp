@@ -83,9 +83,9 @@ struct TimeLimit : aw3::Wrapping_default_visitor
     Deadline deadline;
 };
 
-/// Answers what CGAL's wrapper asks of a source, in place of CGAL's Triangle_soup_oracle, whose trees start each
-/// search anew and test boxes exactly: several times faster. Whether a cell touches the source is decided
-/// exactly, as there; distances are in doubles.
+/// Answers the questions of CGAL's wrapper about a source, in place of CGAL's Triangle_soup_oracle, whose
+/// trees start each search anew and test boxes exactly: several times faster. Whether a cell touches the
+/// source is decided exactly, as there; distances are in doubles.
 class SourceOracle
 {
 public:

@@ -18,8 +18,8 @@ struct Fault
     std::vector<uint32_t> triangles; ///< some that break it; none if it is no matter of single triangles
 };
 
-/// Find a promise that a wrap breaks: it is watertight, each of its triangles has an area, it does not intersect
-/// itself, touches no triangle of the source, and has all vertices of the source inside.
+/// Find a promise that a wrap breaks: it is watertight, each of its triangles has an area, it does not
+/// intersect itself, touches no triangle of the source, and has all vertices of the source inside.
 Fault findFault(const Surface& wrap, const SourceTree& source);
 
 } // namespace hearth::wrap

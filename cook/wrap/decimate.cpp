@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/wrap/decimate.h"
 
+#include "cook/clusters/core/group_mesh.h"
 #include "cook/clusters/simplify/simplify.h"
 #include "cook/wrap/check.h"
 #include "cook/wrap/thread_time.h"
@@ -34,7 +35,7 @@ GroupMesh makeGroup(const Surface& wrap)
     group.center[1] = middle.y;
     group.center[2] = middle.z;
     group.scale = std::max({half.x, half.y, half.z});
-    group.grid_step = std::exp2(std::floor(std::log2(group.scale)) - 22); // about as fine as floats
+    group.grid_step = std::ldexp(1, std::ilogb(group.scale) - 22); // about as fine as floats
     for (uint32_t i = 0; i < wrap.positions.size(); ++i)
     {
         group.positions.push_back(narrow((widen(wrap.positions[i]) - middle) * (1 / group.scale)));

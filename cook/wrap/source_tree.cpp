@@ -38,8 +38,8 @@ Box3 makeBox(const Corners3& corners)
     return box;
 }
 
-/// Call `add` with the box of a triangle; or, if an edge is longer than allowed, with those of its halves, each
-/// halved in turn.
+/// Call `add` with the box of a triangle; or, if an edge is longer than allowed, with those of its halves,
+/// each halved in turn.
 template <typename Add>
 void splitLongEdges(const Corners3& corners, double max_edge2, const Add& add)
 {

@@ -1,5 +1,5 @@
-// Searches the triangles of a wrap's source: by distance, and for those that a small body may touch. The exact
-// tests are left to CGAL (cgal_wrap.h), of the few triangles that remain.
+// Searches the triangles of a wrap's source: by distance, and for those that a small body may touch. The
+// exact tests of the few triangles that remain are left to CGAL (cgal_wrap.h).
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 

@@ -14,10 +14,10 @@ struct WrapOptions
 {
     double alpha = 1 / 50.;   ///< radius of the largest hole that is closed, and size of triangles
     double offset = 1 / 600.; ///< distance from the source
-    /// How far decimation may move the wrap. For its sake the wrap lies half as far more away. 0: not at all.
+    /// Distance that decimation may move the wrap, which lies half as far more away for it. 0: none.
     double error = 1 / 500.;
-    /// Triangles to decimate to, if need be farther away: at up to 16 times the offset. A wrap that needs more
-    /// to be one has more.
+    /// Triangles to decimate to, if need be farther away: at up to 16 times the offset. A wrap that needs
+    /// more to be one has more.
     uint64_t triangles = UINT64_MAX;
     double max_seconds = 600; ///< processor time for each mesh
 
@@ -31,8 +31,8 @@ Surface makeSurface(const mesh::SourceMesh& mesh, std::vector<uint32_t>* numbers
 
 /// Wrap the mesh in its bind pose. The result is watertight, does not intersect itself, and lies around
 /// every triangle of the source that has an area, without touching it: in the stored floats, not only before
-/// they are rounded, and decimated as far as it stays so. It has positions, triangles, and for each the material of the source's nearest triangle.
-/// It has no triangle if the source has none with an area.
+/// they are rounded, and decimated as far as it stays so. It has positions, triangles, and for each the
+/// material of the source's nearest triangle. It has no triangle if the source has none with an area.
 /// errors: wrap_failed, naming `file`, the mesh and the remedy
 Result<mesh::SourceMesh> wrapMesh(const mesh::SourceMesh& source, const WrapOptions& options,
                                   const std::string& file, uint32_t mesh_index);

@@ -243,15 +243,16 @@ TEST(CookGraph, linksProxiesOfTheSourcesThatHaveThem)
     settings.values_of_source[1]["proxy.error"] = {"0.01", ""};
     settings.values_of_source[2]["proxy.from"] = {"\"wrap\"", ""};
     settings.values_of_source[2]["proxy.alpha"] = {"0.1", ""};
+    settings.values_of_source[2]["proxy.triangles"] = {"300", ""};
     settings.values_of_pack = {{"bricks.mode", {"\"off\"", ""}}};
     const std::vector<Words> commands = getCommands(makeCookGraph(settings).value());
     const auto has = [&](const Words& words) { return std::ranges::find(commands, words) != commands.end(); };
     EXPECT_TRUE(has({"bin/hearth-proxy", "{import.part}", "{clusters.part}", "-o", "{proxy.part}", "--error",
                      "0.01", "--stats", "{proxy.json}"}));
-    EXPECT_TRUE(has({"bin/hearth-wrap", "{import.part}", "-o", "{wrap.part}", "--alpha", "0.1", "--stats",
-                     "{wrap.json}"}));
+    EXPECT_TRUE(has({"bin/hearth-wrap", "{import.part}", "-o", "{wrap.part}", "--alpha", "0.1", "--triangles",
+                     "300", "--stats", "{wrap.json}"}));
     EXPECT_TRUE(has({"bin/hearth-proxy", "{import.part}", "{clusters.part}", "{wrap.part}", "-o",
-                     "{proxy.part}", "--stats", "{proxy.json}"}));
+                     "{proxy.part}", "--triangles", "300", "--stats", "{proxy.json}"}));
     Words link{"bin/hearth-link"};
     for (int source = 0; source < 3; ++source)
         link.insert(link.end(), {"{import.part}", "{clusters.part}", "{textures.part}", "{skinning.part}"});

@@ -15,8 +15,8 @@ namespace hearth::clusters
 /// coordinates.
 using Corners3 = std::array<Double3, 3>;
 
-/// Return the vector from the closest point of a triangle, needles included, to a point. Never too short except
-/// for rounding.
+/// Return the vector from the closest point of a triangle, needles included, to a point. Never too short
+/// except for rounding.
 Double3 offsetFromTriangle(Double3 point, const Corners3& triangle);
 
 /// Return the squared length of offsetFromTriangle.

@@ -135,6 +135,8 @@ int main(int argc, char** argv)
     app.addOption("PARTS", parts, "import parts: their wraps are printed beside no aim");
     app.addOption("--alpha", options.alpha, "as hearth-wrap's").showDefault();
     app.addOption("--offset", options.offset, "as hearth-wrap's").showDefault();
+    app.addOption("--error", options.error, "as hearth-wrap's").showDefault();
+    app.addOption("--triangles", options.triangles, "as hearth-wrap's");
     if (const std::optional<int> exit_code = app.parse(argc, argv))
         return *exit_code;
     for (const std::string& part : parts)
