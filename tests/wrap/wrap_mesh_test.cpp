@@ -1,5 +1,6 @@
 // Tests wraps of models that have no inside: what they promise is checked by plain means.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "cook/wrap/check.h"
 #include "cook/wrap/wrap_mesh.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surfaces/surface_distance.h"
@@ -128,6 +129,55 @@ SourceMesh expectSound(const SourceMesh& source, wrap::WrapOptions options, doub
     checkWrap(decimated, source, max_distance + 2 * kError);
     EXPECT_LT(decimated.triangleCount(), whole.triangleCount());
     return whole;
+}
+
+struct Cube
+{
+    Float3 low;
+    float size;
+};
+
+/// Weld cubes, the first with its six sides or fewer.
+wrap::Surface weldCubes(const std::vector<Cube>& cubes, int sides = kAllSides)
+{
+    SourceMesh mesh;
+    for (const auto& [low, size] : cubes)
+        addBox(mesh, low, low + Float3{size, size, size}, mesh.positions.empty() ? sides : kAllSides);
+    return wrap::makeSurface(mesh);
+}
+
+TEST(FindFault, NamesWhatIsBroken)
+{
+    const wrap::Surface source = weldCubes({{{1, 1, 1}, 1}});
+    const wrap::SourceTree tree(source, 10);
+    const auto find = [&](const wrap::Surface& wrap) { return wrap::findFault(wrap, tree).text; };
+    const Cube around{{0, 0, 0}, 3};
+    EXPECT_EQ(find(weldCubes({around})), "");
+    EXPECT_EQ(find(weldCubes({around, {{4, 4, 4}, 1}})), "");
+    EXPECT_EQ(find({}), "it is no surface");
+    EXPECT_EQ(find(weldCubes({around}, 5)), "it is not watertight");
+    EXPECT_EQ(find(weldCubes({around, {{3, 3, 0}, 3}})), "it is not watertight") << "a common edge";
+    EXPECT_EQ(find(weldCubes({around, {{3, 3, 3}, 1}})), "it is not watertight") << "a common vertex";
+    EXPECT_EQ(find(weldCubes({around, {{-1, -1, -1}, 1.5f}})), "it intersects itself");
+    EXPECT_EQ(find(weldCubes({{{0, 0, 0}, 1.5f}})), "it touches the source");
+    EXPECT_EQ(find(weldCubes({{{-1, -1, -1}, 3}})), "it touches the source") << "common planes";
+    EXPECT_EQ(find(weldCubes({{{5, 5, 5}, 1}})), "it leaves vertices of the source outside");
+    wrap::Surface collapsed = weldCubes({around});
+    collapsed.positions[collapsed.indices[0]] = collapsed.positions[collapsed.indices[1]];
+    EXPECT_EQ(find(collapsed), "its triangles collapse");
+}
+
+TEST(FindFault, NamesTheTriangles)
+{
+    const wrap::Surface source = weldCubes({{{1, 1, 1}, 1}});
+    const wrap::SourceTree tree(source, 10);
+    wrap::Surface touching = weldCubes({{{0, 0, 0}, 3}, {{4, 4, 4}, 1}});
+    for (size_t corner = 0; corner < 3; ++corner)
+        touching.positions[touching.indices[corner]].x = 1.5f; // the first side, and those beside it
+    const std::vector<uint32_t> triangles = wrap::findFault(touching, tree).triangles;
+    EXPECT_TRUE(std::ranges::binary_search(triangles, 0u));
+    for (const uint32_t triangle : triangles)
+        EXPECT_LT(triangle, 12u) << "it is of the other cube";
 }
 
 TEST(WrapMesh, OneSidedQuad)
