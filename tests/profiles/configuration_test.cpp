@@ -276,7 +276,8 @@ TEST(Arguments, giveEachCookerItsOwnSettings)
     EXPECT_EQ(wordsFor("proxy", values),
               (Words{"--error", "0.01", "--triangles", "500", "--holes", "0.5", "--convex-parts", "4",
                      "--convex-error", "0.1", "--bindings"}));
-    EXPECT_EQ(wordsFor("wrap", values), (Words{"--alpha", "0.1", "--offset", "0.01"}));
+    EXPECT_EQ(wordsFor("wrap", values),
+              (Words{"--alpha", "0.1", "--offset", "0.01", "--error", "0.01", "--triangles", "500"}));
     EXPECT_EQ(wordsFor("bricks", values), (Words{"--voxel-size", "0.5", "--memory", "1048576"}));
     EXPECT_EQ(wordsFor("receivers", values),
               (Words{"--texels-per-metre", "8", "--lights", "3", "--codec", "rgbm", "--bounces", "2"}));
