@@ -1,6 +1,7 @@
 // Tests wraps of models that have no inside: what they promise is checked by plain means.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/wrap/check.h"
+#include "cook/wrap/decimate.h"
 #include "cook/wrap/wrap_mesh.h"
 #include "tests/support/shapes.h"
 #include "tests/support/surfaces/surface_distance.h"
@@ -228,6 +229,29 @@ TEST(WrapMesh, HouseWithoutAWallIsHollow)
     addBox(house, {0, 0, 0}, {1, 1, 1}, 5);
     const SourceMesh wrap = expectSound(house, {.alpha = 0.05});
     EXPECT_NEAR(test::windingNumber({wrap.positions, wrap.indices}, {0.5, 0.5, 0.5}), 0, 1e-6);
+}
+
+TEST(DecimateWrap, StaysNearTheWrap)
+{
+    const SourceMesh rock = shapes::rock(8, 0.3f);
+    const Result<SourceMesh> whole =
+        wrap::wrapMesh(rock, {.alpha = 1 / 20., .offset = 1 / 50., .error = 0}, "test.part", 0);
+    ASSERT_TRUE(whole.ok());
+    const wrap::Surface source = wrap::makeSurface(rock), surface = wrap::makeSurface(whole.value());
+    const wrap::SourceTree tree(source, 10);
+    const SurfaceDistance distance(surface.positions, surface.indices);
+    size_t triangles = surface.triangleCount();
+    for (const double error_m : {0.02, 0.04, 0.08})
+    {
+        const auto decimated =
+            wrap::decimateWrap(surface, tree, {.error_m = error_m, .step_m = 0.001, .max_seconds = 60});
+        ASSERT_TRUE(decimated);
+        EXPECT_LT(decimated->triangleCount(), triangles);
+        triangles = decimated->triangleCount();
+        // it is measured at corners and middles: between them it may be a little farther away
+        EXPECT_LE(largestDistance(decimated->positions, decimated->indices, 20000, distance), 1.25 * error_m);
+    }
+    EXPECT_FALSE(wrap::decimateWrap(surface, tree, {.error_m = 0.02, .step_m = 0.001, .max_seconds = 0}));
 }
 
 TEST(WrapMesh, DecimatedToTheCornersOfABox)
