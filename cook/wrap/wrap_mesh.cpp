@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/wrap/wrap_mesh.h"
 
+#include "cook/mesh/distinct_triangles.h"
 #include "cook/mesh/triangles.h"
 #include "cook/mesh/weld.h"
 #include "cook/wrap/check.h"
@@ -8,11 +9,9 @@
 #include "cook/wrap/thread_time.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <new>
-#include <span>
 
 namespace hearth::wrap
 {
@@ -24,34 +23,6 @@ namespace
 constexpr int kMaxTries = 4;
 constexpr double kOffsetGrowth = 1.5;
 
-/// Find the triangles that have an area and are no copy of an earlier one: CGAL's trees overflow the stack on
-/// tens of thousands of equal triangles. Copies have the same corners in any order.
-std::vector<uint32_t> findDistinctTriangles(const mesh::SourceMesh& mesh,
-                                            std::span<const uint32_t> position_id_of_vertex)
-{
-    using Key = std::array<uint32_t, 4>; // corners in ascending order, then the triangle
-    std::vector<Key> keys;
-    for (uint32_t triangle = 0; triangle < mesh.triangleCount(); ++triangle)
-    {
-        const uint32_t* const vertices = &mesh.indices[3 * size_t{triangle}];
-        if (mesh::isDegenerate(mesh.positions[vertices[0]], mesh.positions[vertices[1]],
-                               mesh.positions[vertices[2]]))
-            continue;
-        Key& key =
-            keys.emplace_back(Key{position_id_of_vertex[vertices[0]], position_id_of_vertex[vertices[1]],
-                                  position_id_of_vertex[vertices[2]], triangle});
-        std::sort(key.begin(), key.end() - 1);
-    }
-    std::ranges::sort(keys);
-    const auto copies = std::ranges::unique(keys, [](const Key& a, const Key& b)
-                                            { return std::equal(a.begin(), a.end() - 1, b.begin()); });
-    keys.erase(copies.begin(), copies.end());
-    std::vector<uint32_t> triangles;
-    for (const Key& key : keys)
-        triangles.push_back(key.back());
-    std::ranges::sort(triangles);
-    return triangles;
-}
 // Farther from the source fewer triangles are enough: the distance is doubled for a count, this often.
 constexpr int kMaxDoublings = 4;
 
@@ -152,22 +123,32 @@ Surface makeSurface(const mesh::SourceMesh& mesh, std::vector<uint32_t>* numbers
 {
     const mesh::Weld weld = mesh::weldPositions(mesh.positions);
     std::vector<uint32_t> index_of_id(weld.position_count, kInvalidIndex);
-    std::vector<uint32_t> triangles = findDistinctTriangles(mesh, weld.position_id_of_vertex);
+    std::vector<uint32_t> with_area;
     Surface surface;
-    for (const uint32_t triangle : triangles)
-        for (size_t corner = 0; corner < 3; ++corner)
+    for (uint32_t triangle = 0; triangle < mesh.triangleCount(); ++triangle)
+    {
+        const uint32_t* const vertices = &mesh.indices[3 * size_t{triangle}];
+        if (mesh::isDegenerate(mesh.positions[vertices[0]], mesh.positions[vertices[1]],
+                               mesh.positions[vertices[2]]))
+            continue;
+        for (int corner = 0; corner < 3; ++corner)
         {
-            const uint32_t vertex = mesh.indices[3 * size_t{triangle} + corner];
-            uint32_t& index = index_of_id[weld.position_id_of_vertex[vertex]];
+            uint32_t& index = index_of_id[weld.position_id_of_vertex[vertices[corner]]];
             if (index == kInvalidIndex)
             {
                 index = static_cast<uint32_t>(surface.positions.size());
-                surface.positions.push_back(mesh.positions[vertex]);
+                surface.positions.push_back(mesh.positions[vertices[corner]]);
             }
             surface.indices.push_back(index);
         }
+        with_area.push_back(triangle);
+    }
+    // CGAL's trees overflow the stack on tens of thousands of equal triangles
+    const std::vector<uint32_t> distinct = mesh::findDistinctTriangles(surface.indices);
+    surface.indices = mesh::selectTriangles(surface.indices, distinct);
     if (numbers != nullptr)
-        *numbers = std::move(triangles);
+        for (const uint32_t triangle : distinct)
+            numbers->push_back(with_area[triangle]);
     return surface;
 }
 

@@ -3,6 +3,7 @@
 
 #include "cook/clusters/surface/surface_bound.h"
 #include "cook/mesh/closest_point.h"
+#include "cook/mesh/distinct_triangles.h"
 #include "formats/base/rounding.h"
 
 #include <algorithm>
@@ -30,12 +31,15 @@ std::array<uint16_t, 2> codeWeights(float u, float v)
     return {static_cast<uint16_t>(first), static_cast<uint16_t>(std::min(code(v), 65535 - first))};
 }
 
-/// Surface of a proxy or a mesh as the cluster builder sees it.
+/// Surface of a proxy or a mesh as the cluster builder sees it, without copies of triangles: each search
+/// would visit all of them.
 class BoundedSurface
 {
 public:
     explicit BoundedSurface(const Surface& surface)
-        : positions_(surface.positions), corners_(clusters::convertIds<clusters::VertexId>(surface.indices))
+        : positions_(surface.positions),
+          corners_(clusters::convertIds<clusters::VertexId>(
+              mesh::selectTriangles(surface.indices, mesh::findDistinctTriangles(surface.indices))))
     {
     }
     operator clusters::SurfaceView() const { return {positions_, corners_}; }

@@ -6,7 +6,9 @@
 #include "tests/support/shapes.h"
 #include "tests/support/surfaces/certified_distance.h"
 
+#include <ctime>
 #include <gtest/gtest.h>
+#include <tuple>
 
 namespace hearth::test
 {
@@ -57,6 +59,28 @@ TEST(ProxyBinding, prefersTheSideThatTheVertexFaces)
     EXPECT_NEAR(bindings[0].distance, 0.06, 1e-4);
     EXPECT_NEAR(bindings[1].distance, 0.06, 1e-4);
     EXPECT_NEAR(bindings[2].distance, 0.0001, 1e-4) << "the other side is a thousand times as far";
+}
+
+TEST(ProxyDistances, copiesOfTrianglesCostNothing)
+{
+    Surface mesh;
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.add({0, 1, 2}, 0);
+    Surface copies = mesh;
+    for (int copy = 0; copy < 20'000; ++copy)
+        copies.add({1, 2, 0}, 1);
+    const Surface proxy = toSurface(shapes::rock(12, 0.2f));
+    const auto measure = [&](const Surface& surface)
+    {
+        const std::clock_t start = std::clock();
+        const proxy::Distances distances = boundDistances(surface, proxy, 1e-2);
+        return std::tuple(std::clock() - start, distances.of_proxy, distances.of_mesh);
+    };
+    const auto [time, of_proxy, of_mesh] = measure(mesh);
+    const auto [time_of_copies, of_proxy_of_copies, of_mesh_of_copies] = measure(copies);
+    EXPECT_EQ(of_proxy_of_copies, of_proxy);
+    EXPECT_EQ(of_mesh_of_copies, of_mesh);
+    EXPECT_LT(time_of_copies, 10 * time + CLOCKS_PER_SEC / 5);
 }
 
 TEST(ProxyDistances, areBoundsOfBothSides)
