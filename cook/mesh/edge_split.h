@@ -18,8 +18,8 @@ struct SplitSurface
     std::vector<uint32_t> source_triangle; ///< for each triangle, the one of the surface that it is a part of
 };
 
-/// Split edges at their middles until none is longer than `max_length`. Triangles that share an edge share its
-/// parts, so that closed surfaces stay closed. A triangle becomes two, three or four in each round.
+/// Split edges at their middles until none is longer than `max_length`. Triangles that share an edge share
+/// its parts, so that closed surfaces stay closed. A triangle becomes two, three or four in each round.
 /// positions   finite
 /// indices     three for each triangle, in range
 /// max_length  > 0

@@ -113,8 +113,8 @@ Sphere makeSliceSphere(Double3 eye, Double3 forward, double near, double far, do
 }
 
 /// Return how much farther from the view's axis the far side of an off-centre image is than that of a centred
-/// one. Shifts of less than four pixels do not count, and others are rounded: the maps of an image that jitters
-/// shall stay as they are.
+/// one. Shifts of less than four pixels do not count, and others are rounded: the maps of an image that
+/// jitters shall stay as they are.
 /// row     of FrameView across the image
 /// pixels  of the image along it
 double widening(const Float4& row, const Float4& along, float pixels)

@@ -57,8 +57,9 @@ struct LevelFit
 std::vector<LevelFit> fitLevels(std::span<const LevelMesh> levels, std::span<const SurfaceSample> samples,
                                 std::span<const Moments> values, const LevelFitSettings& settings = {});
 
-/// Move samples to the closest points of another surface that face the same way as their triangles. The triangle
-/// of a sample is kInvalidIndex if no such point is within `reach`. The same for any number of threads.
+/// Move samples to the closest points of another surface that face the same way as their triangles. The
+/// triangle of a sample is kInvalidIndex if no such point is within `reach`. The same for any number of
+/// threads.
 /// from  mesh that the samples lie on
 std::vector<SurfaceSample> moveSamples(const MeshView& from, std::span<const SurfaceSample> samples,
                                        const MeshView& to, double reach);

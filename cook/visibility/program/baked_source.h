@@ -70,8 +70,8 @@ struct BakedSource
                             std::span<const uint32_t> instance_meshes, const SamplingSettings& settings,
                             std::span<const double> weights = {}, const MeshProxies* proxies = nullptr);
 
-    /// Collect the occluders of the scene: levels or proxies, as they are sampled, so that no sample is inside
-    /// its own mesh. Deformed meshes occlude only themselves.
+    /// Collect the occluders of the scene: levels or proxies, as they are sampled, so that no sample is
+    /// inside its own mesh. Deformed meshes occlude only themselves.
     /// errors: those of MeshPages::read and addMesh
     Status addOccluders(SceneSurfaces& surfaces, Occluders& world) const;
 

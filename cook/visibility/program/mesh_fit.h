@@ -47,7 +47,7 @@ struct MeshFitStatistics
 
 struct MeshFit
 {
-    /// Of the vertices of each level: encodeVisibility. Vertices that several levels have are equal in all.
+    /// Codes (encodeVisibility) of the vertices of each level; equal for vertices that several levels have.
     std::vector<std::vector<uint32_t>> codes;
     MeshFitStatistics statistics;
 };

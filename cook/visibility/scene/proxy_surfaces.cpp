@@ -38,8 +38,8 @@ constexpr double kMaxTriangles = 1.0 / 6;
 // Triangles that are looked up in sequence; each search starts at the triangle that the previous one found.
 constexpr size_t kTrianglesPerTask = 128;
 
-/// Choose the coarsest level of a mesh with at least as many triangles as its proxy: a finer one has normals of
-/// details that the proxy does not have.
+/// Choose the coarsest level of a mesh with at least as many triangles as its proxy: a finer one has normals
+/// of details that the proxy does not have.
 uint32_t chooseLevel(const PackView& part, uint32_t mesh, size_t triangles)
 {
     const std::vector<uint64_t> counts = countLevelTriangles(part, mesh);

@@ -1,5 +1,5 @@
-// Tests that visibility is fitted on the proxies of meshes that have one near them, and that proxies occlude in
-// their place.
+// Tests that visibility is fitted on the proxies of meshes that have one near them, and that proxies occlude
+// in their place.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "cook/visibility/program/visibility_part.h"
 #include "tests/cook/pages/sample_part.h"
