@@ -1328,8 +1328,8 @@ HEARTH_API hearth_result hearth_queries_cast_rays(hearth_queries* queries, const
                                                   uint32_t ray_count, const hearth_cast* cast,
                                                   hearth_hit* hits, char* message, size_t message_size);
 
-/* Make the ray through a place of a frame's image, by its camera and its shift alone. Its t is the distance along the view's axis, from z_near
- * on.
+/* Make the ray through a place of a frame's image, by its camera and its shift alone. Its t is the distance
+ * along the view's axis, from z_near on.
  * width, height  of the targets; above 0
  * x, y           pixels from the left and from the top; a pixel's center is at .5
  * errors: USAGE. */
