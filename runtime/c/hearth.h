@@ -116,7 +116,10 @@ enum
     /* 1.8: the caller enabled textureCompressionASTC_HDR of VK_EXT_texture_compression_astc_hdr: use it */
     HEARTH_FEATURE_ASTC_HDR = 64,
     /* 1.8: update texels of baked light by drawn points, for devices with slow compute shaders; same texels */
-    HEARTH_FEATURE_RECEIVER_POINTS = 128
+    HEARTH_FEATURE_RECEIVER_POINTS = 128,
+    /* 1.8: frames leave their depth to passes of the caller (hearth_targets_info.depth), which costs 5 bytes a
+     * pixel on tile-based GPUs. Implies HEARTH_MATERIALS_ID. */
+    HEARTH_FEATURE_DEPTH = 256
 };
 
 /* Purpose of device memory. */
@@ -518,6 +521,11 @@ typedef struct hearth_targets_info
     uint64_t allocated_bytes; /* without transient_bytes */
     uint64_t
         transient_bytes; /* of attachments on the tile only, which the device allocates lazily, if ever */
+    /* since 1.8: D32_SFLOAT_S8_UINT, for draws of the game behind the frame: z_near over the distance along
+     * the camera's axis, 0 where nothing is; the stencil is Hearth's. Usage DEPTH_STENCIL_ATTACHMENT, SAMPLED
+     * and TRANSFER_SRC. Give it back in the state `before`: the next frame may cull against it. With
+     * HEARTH_FEATURE_DEPTH; else `image` is VK_NULL_HANDLE. */
+    hearth_image depth;
 } hearth_targets_info;
 
 #define HEARTH_IMAGE_INIT                                                                                    \
@@ -529,7 +537,7 @@ typedef struct hearth_targets_info
     }
 #define HEARTH_TARGETS_INFO_INIT                                                                             \
     {                                                                                                        \
-        sizeof(hearth_targets_info), 0, 0, 0, HEARTH_IMAGE_INIT, HEARTH_IMAGE_INIT, 0, 0                     \
+        sizeof(hearth_targets_info), 0, 0, 0, HEARTH_IMAGE_INIT, HEARTH_IMAGE_INIT, 0, 0, HEARTH_IMAGE_INIT  \
     }
 
 HEARTH_API hearth_result hearth_targets_get_info(const hearth_targets* targets, hearth_targets_info* info);

@@ -16,7 +16,7 @@ namespace
 constexpr uint32_t kFeatures = HEARTH_FEATURE_SAMPLER_ANISOTROPY | HEARTH_FEATURE_OVERDRAW |
                                HEARTH_FEATURE_DEBUG_LABELS | HEARTH_FEATURE_GRADING |
                                HEARTH_FEATURE_FINAL_PASS | HEARTH_FEATURE_DEFERRED | HEARTH_FEATURE_ASTC_HDR |
-                               HEARTH_FEATURE_RECEIVER_POINTS;
+                               HEARTH_FEATURE_RECEIVER_POINTS | HEARTH_FEATURE_DEPTH;
 
 /// Sizes of the description in versions 1.0, and 1.1 to 1.7.
 constexpr size_t kOldDescriptionBytes[] = {offsetof(hearth_renderer_description, memory),
@@ -129,6 +129,7 @@ Result<std::unique_ptr<hearth_renderer>> create(const hearth_renderer_descriptio
                                .materials = static_cast<gpu::MaterialTest>(description.materials),
                                .post = toPostSupport(description.features),
                                .deferred = (description.features & HEARTH_FEATURE_DEFERRED) != 0,
+                               .keeps_depth = (description.features & HEARTH_FEATURE_DEPTH) != 0,
                                .receiver_update = (description.features & HEARTH_FEATURE_RECEIVER_POINTS) != 0
                                                       ? gpu::ReceiverUpdate::points
                                                       : gpu::ReceiverUpdate::compute}));

@@ -2,6 +2,7 @@
 #include "runtime/c/handles.h"
 
 #include "runtime/gpu/frame/frame_parts.h"
+#include "runtime/gpu/frame/frame_plan.h"
 
 using namespace hearth;
 using namespace hearth::c;
@@ -28,6 +29,16 @@ hearth_image makeImage(const gpu::Image& image, const gpu::ImageUse& drawn, cons
             .format = image.format,
             .before = toC(first.before),
             .after = toC(shaded.after)};
+}
+
+/// Return the depth, which the caller gets and gives back in one layout.
+hearth_image makeDepth(const gpu::Image& image)
+{
+    const VkImageLayout layout = gpu::accessLayout(gpu::Access::sampled);
+    return {.image = image.handle.get(),
+            .format = image.format,
+            .before = {layout, gpu::kCallerDepthStages, gpu::kCallerDepthAccess},
+            .after = {layout, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT}};
 }
 
 uint32_t toLightPaths(uint32_t flags)
@@ -156,6 +167,8 @@ hearth_result hearth_targets_get_info(const hearth_targets* targets, hearth_targ
                              .transient_bytes = t.transientBytes()};
                     if (!keeps)
                         info->visibility.image = VK_NULL_HANDLE;
+                    if (targets->renderer->renderer->keepsDepth())
+                        info->depth = makeDepth(t.depth());
                     return success();
                 });
 }

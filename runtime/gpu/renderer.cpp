@@ -121,7 +121,8 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const DeviceDescription& desc
     std::unique_ptr<Renderer> renderer(new Renderer);
     Renderer& r = *renderer;
     std::vector<RequiredFormat> formats;
-    const MaterialTest materials = options.deferred ? MaterialTest::id : options.materials;
+    const MaterialTest materials =
+        options.deferred || options.keeps_depth ? MaterialTest::id : options.materials;
     r.receiver_update_ = options.receiver_update;
     r.post_support_ = options.deferred ? PostSupport::half : options.post;
     if (materials == MaterialTest::id)
@@ -140,8 +141,8 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const DeviceDescription& desc
         radiance_format = r.post_support_ == PostSupport::packed && r.device_.draws_packed_floats
                               ? kPackedRadiance
                               : kHalfFormat.format;
-    HEARTH_ASSIGN_OR_RETURN(
-        r.passes_, FramePasses::create(r.device_, way, materials, radiance_format, options.deferred));
+    HEARTH_ASSIGN_OR_RETURN(r.passes_, FramePasses::create(r.device_, way, materials, radiance_format,
+                                                           options.deferred, options.keeps_depth));
     HEARTH_ASSIGN_OR_RETURN(r.light_lists_, LightListsPass::create(r.device_, r.layouts_));
     HEARTH_ASSIGN_OR_RETURN(r.cull_, CullPass::create(r.device_, r.layouts_));
     HEARTH_ASSIGN_OR_RETURN(r.copy_words_, WordCopyPass::create(r.device_));
@@ -222,6 +223,7 @@ FrameDescription Renderer::describe(const Scene& scene, const FrameTargets& targ
     configuration.way = passes_.way();
     configuration.radiance_format = passes_.radianceFormat();
     configuration.materials = passes_.materials();
+    configuration.keeps_depth = passes_.keepsDepth();
     if (scene.shadows != nullptr)
     {
         configuration.maps_at_once = static_cast<uint32_t>(scene.frame().casters.size());

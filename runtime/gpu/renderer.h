@@ -98,6 +98,9 @@ struct RendererOptions
     /// Light methods with any LightPath. Their frames have MaterialTest::id and PostSupport::half, which the
     /// renderer has then.
     bool deferred = false;
+    /// Frames leave FrameTargets::depth() to the caller. They have MaterialTest::id, which the renderer has
+    /// then.
+    bool keeps_depth = false;
     ReceiverUpdate receiver_update = ReceiverUpdate::compute;
 };
 
@@ -116,6 +119,7 @@ public:
     Result<FrameTargets> createTargets(VkExtent2D extent, const TargetOptions& options = {}) const;
 
     FrameWay way() const { return passes_.way(); }
+    bool keepsDepth() const { return passes_.keepsDepth(); }
     bool hasFinalPasses() const { return passes_.hasFinalPasses(); }
     PostSupport postSupport() const { return post_support_; }
     /// True if frames may have a light method.

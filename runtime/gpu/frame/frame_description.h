@@ -363,6 +363,8 @@ struct FrameConfiguration
     bool gathers_light = false;
     bool in_parts = false;         ///< the caller may put work between visibility and shading
     bool keeps_visibility = false; ///< the caller reads the visibility buffer after the frame
+    /// The caller uses the depth after the frame, and gives it back as it got it. With MaterialTest::id.
+    bool keeps_depth = false;
     bool shows_overdraw = false;
     bool has_shadows = false;
     VkFormat shadow_format = VK_FORMAT_D32_SFLOAT; ///< of shadow maps, or VK_FORMAT_D16_UNORM

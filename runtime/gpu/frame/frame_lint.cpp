@@ -164,7 +164,8 @@ private:
                 return "";
         }
         const bool handed_out = resource == Resource::color ||
-                                (resource == Resource::visibility && frame_.configuration.keeps_visibility);
+                                (resource == Resource::visibility && frame_.configuration.keeps_visibility) ||
+                                (resource == Resource::depth && frame_.configuration.keeps_depth);
         if (handed_out)
             return kCaller;
         // the next frame has the same passes

@@ -235,13 +235,15 @@ Result<PlannedPass> FramePasses::findOrCreate(const Device& device, const Pass& 
 }
 
 Result<FramePasses> FramePasses::create(const Device& device, FrameWay way, MaterialTest materials,
-                                        std::optional<VkFormat> radiance_format, bool deferred)
+                                        std::optional<VkFormat> radiance_format, bool deferred,
+                                        bool keeps_depth)
 {
     FramePasses passes;
     passes.way_ = way;
     passes.materials_ = materials;
     HEARTH_ASSERT(!deferred || radiance_format.has_value());
     passes.radiance_format_ = radiance_format;
+    passes.keeps_depth_ = keeps_depth;
     passes.features_ = deferred          ? FrameFeatures::deferred
                        : radiance_format ? FrameFeatures::finished
                                          : FrameFeatures::shaded;
@@ -249,6 +251,7 @@ Result<FramePasses> FramePasses::create(const Device& device, FrameWay way, Mate
     for (FrameConfiguration configuration : allConfigurations(way, materials, passes.features_))
     {
         addLightLists(configuration);
+        configuration.keeps_depth = keeps_depth;
         configuration.lights_bricks = true;
         configuration.radiance_format = passes.radianceFormat();
         configurations.push_back(configuration);

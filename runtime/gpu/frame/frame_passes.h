@@ -71,13 +71,16 @@ class FramePasses
 public:
     /// radiance_format  as FrameConfiguration, of frames with a final pass; none: there are no such frames
     /// deferred         there are frames that light stored surfaces; they have a final pass
+    /// keeps_depth      as FrameConfiguration, of all frames
     /// errors: device_failed.
     static Result<FramePasses> create(const Device& device, FrameWay way, MaterialTest materials,
-                                      std::optional<VkFormat> radiance_format = {}, bool deferred = false);
+                                      std::optional<VkFormat> radiance_format = {}, bool deferred = false,
+                                      bool keeps_depth = false);
 
     FrameWay way() const { return way_; }
     MaterialTest materials() const { return materials_; }
     FrameFeatures features() const { return features_; }
+    bool keepsDepth() const { return keeps_depth_; }
     bool hasFinalPasses() const { return features_ >= FrameFeatures::finished; }
     /// True if the output is one of the frames' that the passes draw.
     bool has(ShadedOutput output) const;
@@ -109,6 +112,7 @@ private:
     FrameWay way_ = FrameWay::merged;
     MaterialTest materials_ = MaterialTest::depth;
     FrameFeatures features_ = FrameFeatures::shaded;
+    bool keeps_depth_ = false;
     std::optional<VkFormat> radiance_format_;
     std::vector<FramePlan> plans_; ///< [planNumber]
     std::vector<PassFamily> families_;

@@ -478,15 +478,17 @@ bool areApart(const Pass& pass, const Pass& other, Resource resource)
 }
 
 /// Pass after `from` that needs the content of a resource before another pass replaces it.
-const Pass* findReader(std::span<const Pass> passes, size_t from, Resource resource)
+/// is_handed_out  a pass that only binds the resource needs it, too: it hands it on
+const Pass* findReader(std::span<const Pass> passes, size_t from, Resource resource, bool is_handed_out)
 {
     for (size_t i = from + 1; i < passes.size(); ++i)
         if (const ResourceUse* use =
                 areApart(passes[from], passes[i], resource) ? nullptr : firstUse(passes[i], resource))
         {
-            if (needsContent(*use))
+            const bool is_bound_alone = use->access == Access::depth_keep;
+            if (needsContent(*use) || (is_handed_out && is_bound_alone))
                 return &passes[i];
-            if (use->access != Access::depth_keep)
+            if (!is_bound_alone)
                 return nullptr;
         }
     return nullptr;
@@ -503,7 +505,14 @@ const Pass* findUser(std::span<const Pass> passes, size_t from, Resource resourc
 
 bool isHandedOut(const FrameConfiguration& c, Resource resource)
 {
-    return resource == Resource::color || (resource == Resource::visibility && c.keeps_visibility);
+    return resource == Resource::color || (resource == Resource::visibility && c.keeps_visibility) ||
+           (resource == Resource::depth && c.keeps_depth);
+}
+
+/// Return the layout in which the caller gets an image: the depth in the one that the next frame may expect.
+VkImageLayout handedOutLayout(Resource resource)
+{
+    return resource == Resource::depth ? accessLayout(Access::sampled) : VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
 }
 
 /// Return the access by which the next frame reads an attachment that this one is to leave to it.
@@ -542,9 +551,10 @@ void setAttachments(const FrameConfiguration& c, std::span<Pass> passes, size_t 
             continue;
         AttachmentUse attachment{.resource = resource, .final_layout = own};
         const ResourceUse* first = firstUse(pass, resource);
-        const Pass* reader = findReader(passes, number, resource);
+        const Pass* reader = findReader(passes, number, resource, isHandedOut(c, resource));
         // the layout of an image that was stored stands for its content
-        const bool is_needed_later = before != VK_IMAGE_LAYOUT_UNDEFINED && reader != nullptr;
+        const bool is_needed_later =
+            before != VK_IMAGE_LAYOUT_UNDEFINED && (reader != nullptr || isHandedOut(c, resource));
         // an empty subpass would load and store what it does not use
         HEARTH_ASSERT(first != nullptr || !is_needed_later);
         const bool passes_through =
@@ -566,17 +576,17 @@ void setAttachments(const FrameConfiguration& c, std::span<Pass> passes, size_t 
             attachment.reader = userName(user, resource);
             attachment.final_layout = accessLayout(firstUse(user, resource)->access);
         }
+        else if (has_content && isHandedOut(c, resource))
+        {
+            attachment.store = true;
+            attachment.reader = kCaller;
+            attachment.final_layout = handedOutLayout(resource);
+        }
         else if (const auto access = readByNextFrame(c, resource); has_content && access)
         {
             attachment.store = true;
             attachment.reader = kNextFrame;
             attachment.final_layout = accessLayout(*access);
-        }
-        else if (has_content && isHandedOut(c, resource))
-        {
-            attachment.store = true;
-            attachment.reader = kCaller;
-            attachment.final_layout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
         }
         before = attachment.store ? attachment.final_layout : VK_IMAGE_LAYOUT_UNDEFINED;
         pass.attachments.push_back(attachment);
@@ -590,14 +600,16 @@ void setAttachments(const FrameConfiguration& c, std::span<Pass> passes, size_t 
 void setHandedOut(const FrameConfiguration& c, std::span<Pass> passes,
                   const std::array<VkImageLayout, kResourceCount>& stored)
 {
+    HEARTH_ASSERT(!c.keeps_depth ||
+                  stored[static_cast<size_t>(Resource::depth)] == handedOutLayout(Resource::depth));
     const VkImageLayout layout = stored[static_cast<size_t>(Resource::visibility)];
-    if (!isHandedOut(c, Resource::visibility) || layout == VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)
+    if (!isHandedOut(c, Resource::visibility) || layout == handedOutLayout(Resource::visibility))
         return;
     const auto last =
         std::find_if(passes.rbegin(), passes.rend(),
                      [](const Pass& pass) { return firstUse(pass, Resource::visibility) != nullptr; });
     HEARTH_ASSERT(last != passes.rend() && layout != VK_IMAGE_LAYOUT_UNDEFINED);
-    last->handed_out.push_back({Resource::visibility, layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL});
+    last->handed_out.push_back({Resource::visibility, layout, handedOutLayout(Resource::visibility)});
 }
 
 /// Uses of a resource.
@@ -620,7 +632,7 @@ struct Touch
 using Touches = std::array<Touch, kResourceCount>;
 
 /// Return what any frame may do with each resource: frames before may have had other configurations.
-Touches touchesOfEarlierFrames(FrameWay way, MaterialTest materials)
+Touches touchesOfEarlierFrames(FrameWay way, MaterialTest materials, bool keeps_depth)
 {
     Touches touches;
     std::vector<FrameConfiguration> all = allConfigurations(way, materials);
@@ -648,6 +660,8 @@ Touches touchesOfEarlierFrames(FrameWay way, MaterialTest materials)
     }
     for (const Resource resource : {Resource::color, Resource::visibility, Resource::radiance})
         touches[static_cast<size_t>(resource)].stages |= kCallerStages;
+    if (keeps_depth)
+        touches[static_cast<size_t>(Resource::depth)].stages |= kCallerDepthStages;
     // an image has been the one in a frame and the other in the next
     Touch& exposure = touches[static_cast<size_t>(Resource::exposure)];
     exposure.add(Access::fragment_read);
@@ -774,11 +788,13 @@ FrameDescription describeFrame(const FrameConfiguration& configuration)
 std::vector<FrameDescription> describeFrames(std::span<const FrameConfiguration> configurations)
 {
     const FrameConfiguration& first = configurations.front();
-    const Touches earlier_frames = touchesOfEarlierFrames(first.way, first.materials);
+    const Touches earlier_frames = touchesOfEarlierFrames(first.way, first.materials, first.keeps_depth);
     std::vector<FrameDescription> frames;
     for (const FrameConfiguration& configuration : configurations)
     {
-        HEARTH_ASSERT(configuration.way == first.way && configuration.materials == first.materials);
+        HEARTH_ASSERT(configuration.way == first.way && configuration.materials == first.materials &&
+                      configuration.keeps_depth == first.keeps_depth);
+        HEARTH_ASSERT(!configuration.keeps_depth || configuration.materials == MaterialTest::id);
         FrameDescription& frame = frames.emplace_back();
         frame.configuration = configuration;
         frame.passes = joinSteps(configuration, listSteps(configuration));

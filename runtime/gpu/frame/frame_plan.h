@@ -11,7 +11,7 @@ namespace hearth::gpu
 /// Describe a frame. An attachment is stored only if a later pass or the caller needs it, and loaded only if
 /// an earlier pass of the frame has stored it.
 FrameDescription describeFrame(const FrameConfiguration& configuration);
-/// Describe frames that have the way and the material test of the first.
+/// Describe frames that have the way and the material test of the first, and keep the depth as it does.
 std::vector<FrameDescription> describeFrames(std::span<const FrameConfiguration> configurations);
 
 /// Configurations without a final pass: the first of allConfigurations.
@@ -38,6 +38,13 @@ uint32_t configurationIndex(const FrameConfiguration& configuration);
 /// Uses of an image by the caller that a frame waits for.
 inline constexpr VkPipelineStageFlags kCallerStages =
     VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
+/// Uses of the depth by the caller that a frame waits for: its own passes test it, sample it and may write it.
+inline constexpr VkPipelineStageFlags kCallerDepthStages =
+    kCallerStages | VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT |
+    VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+inline constexpr VkAccessFlags kCallerDepthAccess = VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_SHADER_READ_BIT |
+                                                    VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT |
+                                                    VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
 inline constexpr VkAccessFlags kCallerReads = VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_SHADER_READ_BIT;
 
 /// Return the first pass that has a step, or null.

@@ -132,10 +132,10 @@ std::string jsonConfiguration(const FrameConfiguration& c)
            ",\"material_tiles\":" + boolean(c.material_tiles) +
            ",\"gathers_light\":" + boolean(c.gathers_light) + ",\"in_parts\":" + boolean(c.in_parts) +
            ",\"keeps_visibility\":" + boolean(c.keeps_visibility) +
-           ",\"shows_overdraw\":" + boolean(c.shows_overdraw) + ",\"shadows\":" + boolean(c.has_shadows) +
-           ",\"light_lists\":" + boolean(c.lists_lights) + ",\"slot_lights\":" + boolean(c.lists_slots) +
-           ",\"visible_lights\":" + boolean(c.lists_visible) + ",\"bricks\":" + boolean(c.lights_bricks) +
-           ",\"final_pass\":" + boolean(c.has_final_pass) +
+           ",\"keeps_depth\":" + boolean(c.keeps_depth) + ",\"shows_overdraw\":" + boolean(c.shows_overdraw) +
+           ",\"shadows\":" + boolean(c.has_shadows) + ",\"light_lists\":" + boolean(c.lists_lights) +
+           ",\"slot_lights\":" + boolean(c.lists_slots) + ",\"visible_lights\":" + boolean(c.lists_visible) +
+           ",\"bricks\":" + boolean(c.lights_bricks) + ",\"final_pass\":" + boolean(c.has_final_pass) +
            ",\"automatic_exposure\":" + boolean(c.adapts_exposure) + ",\"bloom\":" + boolean(c.blooms) +
            ",\"lights\":" + quoted(enumName(kLightPathNames, c.light_path)) + "}";
 }

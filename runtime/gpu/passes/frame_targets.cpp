@@ -161,7 +161,8 @@ Status FrameTargets::createImages(const Device& device, const FramePasses& passe
     const bool has_stencil = passes.materials() == MaterialTest::id;
     HEARTH_TRY(create(depth_, FrameResource::depth, depthFormat(passes.materials()),
                       VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | (options_.light_paths != 0 ? kInput : 0),
-                      VK_IMAGE_USAGE_SAMPLED_BIT,
+                      VK_IMAGE_USAGE_SAMPLED_BIT |
+                          (passes.keepsDepth() ? VkImageUsageFlags{VK_IMAGE_USAGE_TRANSFER_SRC_BIT} : 0),
                       VK_IMAGE_ASPECT_DEPTH_BIT | (has_stencil ? VK_IMAGE_ASPECT_STENCIL_BIT : 0)));
     const auto create_lit = [&](Image& image, FrameResource resource, VkFormat format) -> Status
     {

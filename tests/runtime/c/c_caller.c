@@ -334,14 +334,15 @@ static void destroy_readback(const c_caller* caller, readback* made)
     caller->vkFreeMemory(caller->device, made->memory, NULL);
 }
 
-/* The fields of hearth_image suffice to copy the image. */
+/* The fields of hearth_image suffice to copy the image, or the depth and to give it back. */
 static void copy_image(const c_caller* caller, const hearth_image* source, const c_image* image,
                        VkBuffer buffer, VkDeviceSize offset)
 {
+    const int is_depth = source->format == VK_FORMAT_D32_SFLOAT_S8_UINT;
     VkBufferImageCopy region = {0};
     VkImageMemoryBarrier barrier = {VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER};
     region.bufferOffset = offset;
-    region.imageSubresource.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT;
+    region.imageSubresource.aspectMask = is_depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
     region.imageSubresource.layerCount = 1;
     region.imageExtent.width = image->width;
     region.imageExtent.height = image->height;
@@ -352,12 +353,21 @@ static void copy_image(const c_caller* caller, const hearth_image* source, const
     barrier.newLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
     barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     barrier.image = source->image;
-    barrier.subresourceRange.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT;
+    barrier.subresourceRange.aspectMask =
+        is_depth ? VK_IMAGE_ASPECT_DEPTH_BIT | VK_IMAGE_ASPECT_STENCIL_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
     barrier.subresourceRange.levelCount = barrier.subresourceRange.layerCount = 1;
     caller->vkCmdPipelineBarrier(caller->commands, source->after.stages, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0,
                                  NULL, 0, NULL, 1, &barrier);
     caller->vkCmdCopyImageToBuffer(caller->commands, source->image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL,
                                    buffer, 1, &region);
+    if (!is_depth)
+        return;
+    barrier.srcAccessMask = VK_ACCESS_TRANSFER_READ_BIT;
+    barrier.dstAccessMask = source->before.access;
+    barrier.oldLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
+    barrier.newLayout = source->before.layout;
+    caller->vkCmdPipelineBarrier(caller->commands, VK_PIPELINE_STAGE_TRANSFER_BIT, source->before.stages, 0, 0,
+                                 NULL, 0, NULL, 1, &barrier);
 }
 
 static void show_host(const c_caller* caller)
@@ -402,15 +412,20 @@ static hearth_result stream(c_caller* caller, hearth_scene* scene, hearth_target
     return hearth_scene_begin_frame(scene, serial, serial - 1);
 }
 
-/* The readback has colour, visibility, counters and picks. */
+/* The readback has colour, visibility, counters, picks and depth. */
 static VkDeviceSize pick_offset(const c_image* image)
 {
     return (VkDeviceSize)image->width * image->height * 8 + sizeof(hearth_frame_counters);
 }
 
-static VkDeviceSize readback_bytes(const c_image* image)
+static VkDeviceSize depth_offset(const c_image* image)
 {
     return pick_offset(image) + (VkDeviceSize)image->width * image->height * sizeof(hearth_pick);
+}
+
+static VkDeviceSize readback_bytes(const c_image* image)
+{
+    return depth_offset(image) + (VkDeviceSize)image->width * image->height * sizeof(float);
 }
 
 static hearth_result record_frame(hearth_scene* scene, hearth_targets* targets, VkCommandBuffer commands,
@@ -463,6 +478,8 @@ static hearth_result record(c_caller* caller, hearth_scene* scene, hearth_target
     {
         copy_image(caller, &images.color, image, memory->buffer, 0);
         copy_image(caller, &images.visibility, image, memory->buffer, image_bytes);
+        if (image->depth != NULL)
+            copy_image(caller, &images.depth, image, memory->buffer, depth_offset(image));
         show_host(caller);
     }
     if (c_caller_submit(caller) != VK_SUCCESS)
@@ -478,6 +495,8 @@ static void take(const readback* memory, c_image* image)
     memcpy(&image->counters, memory->mapped + 2 * image_bytes, sizeof(image->counters));
     if (image->picks != NULL)
         memcpy(image->picks, memory->mapped + pick_offset(image), image_bytes / 4 * sizeof(hearth_pick));
+    if (image->depth != NULL)
+        memcpy(image->depth, memory->mapped + depth_offset(image), image_bytes / 4 * sizeof(float));
 }
 
 static hearth_result draw_scene(c_caller* caller, hearth_scene* scene, hearth_targets* targets,

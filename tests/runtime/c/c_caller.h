@@ -40,6 +40,7 @@ typedef struct c_image
     uint32_t* color; /* width * height, the caller's array; also below */
     uint32_t* visibility;
     hearth_pick* picks; /* or NULL */
+    float* depth;       /* or NULL; needs HEARTH_FEATURE_DEPTH */
     uint64_t ticks[HEARTH_TIMESTAMP_COUNT];
     hearth_frame_counters counters;
     hearth_stream_counters streaming; /* with a budget */

@@ -122,6 +122,46 @@ TEST_F(CQueriesTest, raysHitWhatPixelsShow)
     }
 }
 
+TEST_F(CQueriesTest, keptDepthIsThatOfRays)
+{
+    const hearth_frame frame = sourceFrame();
+    for (const uint32_t way : {HEARTH_FRAME_MERGED, HEARTH_FRAME_SEPARATE, HEARTH_FRAME_ONE_SET})
+        for (const uint32_t occlusion : {HEARTH_OCCLUSION_TWO_PHASE, HEARTH_OCCLUSION_LAST_FRAME})
+            for (const bool in_parts : {false, true})
+            {
+                hearth_renderer_description description = c_caller_description(caller_);
+                description.features = HEARTH_FEATURE_DEPTH;
+                description.frame_way = way;
+                recreateRenderer(description);
+                std::vector<float> depth(kWidth * kHeight);
+                c_image image{};
+                image.scene = HEARTH_SCENE_OPTIONS_INIT;
+                image.frame = frame;
+                image.frame.occlusion = occlusion;
+                image.width = kWidth;
+                image.height = kHeight;
+                image.in_parts = in_parts ? 1 : 0;
+                color_.assign(depth.size(), 0);
+                visibility_.assign(depth.size(), 0);
+                image.color = color_.data();
+                image.visibility = visibility_.data();
+                image.depth = depth.data();
+                ASSERT_EQ(c_caller_draw(caller_, renderer_, pack_, &image), HEARTH_OK)
+                    << hearth_last_error(renderer_);
+                const std::vector<hearth_hit> hits = castPixels(frame, HEARTH_CAST_INIT);
+                size_t different = 0, covered = 0;
+                for (size_t i = 0; i < hits.size(); ++i)
+                {
+                    const bool misses = hits[i].instance == UINT32_MAX;
+                    const float expected = misses ? 0 : frame.camera.z_near / hits[i].t;
+                    different += std::abs(depth[i] - expected) > 1e-3f * expected;
+                    covered += !misses;
+                }
+                EXPECT_LE(different, 2 * kMaxEdgePixels);
+                EXPECT_GT(covered, hits.size() / 8);
+            }
+}
+
 TEST_F(CQueriesTest, picksAreTheTrianglesOfTheVisibilityBuffer)
 {
     hearth_frame frame = makeFrame();

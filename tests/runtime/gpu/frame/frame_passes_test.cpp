@@ -41,6 +41,8 @@ std::vector<FrameConfiguration> everyConfiguration()
                     c.lists_slots = lists == 2;
                     c.lists_visible = lists == 3;
                     all.push_back(c);
+                    if (materials == MaterialTest::id)
+                        all.emplace_back(c).keeps_depth = true;
                     // what follows shading does not depend on what lies before it: some have a final pass
                     if (random() % 8 != 0)
                         continue;
@@ -108,6 +110,8 @@ private:
         holds = matches(memory_, {FrameResource::color, 0}) && holds;
         if (frame.configuration.keeps_visibility)
             holds = matches(memory_, {FrameResource::visibility, 0}) && holds;
+        if (frame.configuration.keeps_depth)
+            holds = matches(memory_, {FrameResource::depth, 0}) && holds;
         return holds;
     }
 

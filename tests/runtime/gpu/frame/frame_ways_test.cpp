@@ -336,4 +336,40 @@ TEST_F(FrameWaysTest, targetsForFewDemandsDrawTheSame)
     }
 }
 
+TEST_F(FrameWaysTest, framesThatKeepTheDepthDrawTheSame)
+{
+    TestScene test;
+    fillRocks(test, 3, 0);
+    const formats::PackView pack = test.build();
+    gpu::RendererOptions options = testRendererOptions();
+    options.materials = gpu::MaterialTest::id;
+    std::vector<std::vector<std::byte>> colors;
+    for (const bool keeps_depth : {false, true})
+    {
+        options.keeps_depth = keeps_depth;
+        replaceRenderer(options);
+        const auto scene = upload(pack);
+        for (const bool by_last_frame : {false, true})
+        {
+            auto targets = renderer().createTargets({160, 120}, {.may_split = false});
+            ASSERT_TRUE(targets.ok());
+            // each frame culls against the depth that the one before has left
+            for (int frame = 0; frame < 3; ++frame)
+                run(
+                    [&](VkCommandBuffer commands)
+                    {
+                        renderer().record(
+                            commands, *scene, *targets,
+                            {.view = makeView(*scene, kCamera, {}), .occludes_by_last_frame = by_last_frame});
+                    });
+            auto color = host().read(renderer().device(), targets->color(), 4);
+            ASSERT_TRUE(color.ok());
+            colors.push_back(std::move(*color));
+        }
+    }
+    EXPECT_EQ(colors[0], colors[2]);
+    EXPECT_EQ(colors[1], colors[3]);
+    replaceRenderer(testRendererOptions());
+}
+
 } // namespace hearth::test
