@@ -1,5 +1,5 @@
-# Rules of `cmake --install`, in five components: the programs, the viewer window, hearth-wrap, the runtime that games
-# ship with, and the files to build against it. No installed file contains an absolute path: the installation is
+# Rules of `cmake --install`, in six components: the programs, the viewer window, hearth-wrap, the runtime that games
+# ship with, the files to build against it, and bindings for other languages. No installed file contains an absolute path: the installation is
 # relocatable.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
@@ -8,6 +8,9 @@ get_property(programs GLOBAL PROPERTY HEARTH_PROGRAMS)
 get_property(exports GLOBAL PROPERTY HEARTH_EXPORTS)
 # Builds everything that is installed, without the tests.
 add_custom_target(hearth_installed DEPENDS ${programs} ${exports})
+if(TARGET hearth_bindings)
+  add_dependencies(hearth_installed hearth_bindings)
+endif()
 
 # hearth-view is a component of its own: it needs a window system, and machines that cook have none.
 set(window_programs ${programs})
@@ -51,8 +54,17 @@ install(FILES runtime/c/hearth.h runtime/c/hearth.hpp runtime/c/hearth_helpers.h
 # format_tables.h belongs to no installed library
 install(DIRECTORY formats DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/hearth COMPONENT development
   FILES_MATCHING PATTERN "*.h" PATTERN format_tables.h EXCLUDE)
-install(FILES formats/FORMAT.md runtime/c/README.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/development COMPONENT development)
+install(FILES formats/FORMAT.md runtime/c/README.md docs/versions.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/development COMPONENT development)
 install(DIRECTORY runtime/c/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/development COMPONENT development)
+
+if(TARGET hearth_bindings)
+  get_target_property(bindings hearth_bindings HEARTH_FILES)
+  install(FILES ${bindings} DESTINATION ${CMAKE_INSTALL_DATADIR}/hearth/bindings COMPONENT bindings)
+  # without libhearth-helpers.so: programs in C link the archive
+  install(TARGETS hearth_helpers_shared LIBRARY COMPONENT bindings NAMELINK_SKIP)
+  install(FILES docs/bindings.md DESTINATION ${CMAKE_INSTALL_DOCDIR}/bindings COMPONENT bindings)
+  install(DIRECTORY runtime/c/bindings/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}/bindings COMPONENT bindings)
+endif()
 
 # find_package(hearth CONFIG)
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/hearth)

@@ -14,6 +14,9 @@ endif()
 if(wrap_programs)
   list(APPEND CPACK_COMPONENTS_ALL wrap)
 endif()
+if(TARGET hearth_bindings)
+  list(APPEND CPACK_COMPONENTS_ALL bindings)
+endif()
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -48,5 +51,11 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "libhearth${abi} (= ${PROJECT_VERSION}), libvulkan-dev, libxxhash-dev, libzstd-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS hearth) # hearth_add_assets() runs it
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers, archives and CMake package of Hearth's runtime and of its pack reader")
+
+set(CPACK_DEBIAN_BINDINGS_PACKAGE_NAME hearth-bindings)
+set(CPACK_DEBIAN_BINDINGS_PACKAGE_SECTION devel)
+set(CPACK_DEBIAN_BINDINGS_PACKAGE_DEPENDS "libhearth${abi} (= ${PROJECT_VERSION}), libvulkan1")
+set(CPACK_DEBIAN_BINDINGS_PACKAGE_SUGGESTS "python3, mono-mcs")
+set(CPACK_COMPONENT_BINDINGS_DESCRIPTION "Bindings of Hearth's runtime for Python and C#, and its helpers as a shared library")
 
 include(CPack)

@@ -52,6 +52,15 @@ TEST_F(Packages, holdWhatTheirNamesSay)
           "/pkgconfig/hearth.pc\n", "/hearthConfig.cmake\n", "/HearthAddAssets.cmake\n"})
         EXPECT_EQ(countOccurrences(development, file), 1u) << file;
     EXPECT_NE(field("libhearth-dev", "Depends").find("libhearth1 (= "), std::string::npos);
+
+#ifdef HEARTH_HAS_BINDINGS
+    const std::string bindings = content("hearth-bindings");
+    for (const char* file : {"/share/hearth/bindings/hearth.py\n", "/share/hearth/bindings/Hearth.cs\n",
+                             "/bindings/examples/draw_image.py\n", "/bindings/examples/DrawImage.cs\n",
+                             "/bindings/bindings.md\n", "/libhearth-helpers.so.1 ->"})
+        EXPECT_EQ(countOccurrences(bindings, file), 1u) << file;
+    EXPECT_NE(field("hearth-bindings", "Depends").find("libhearth1 (= "), std::string::npos);
+#endif
 }
 
 } // namespace hearth::test

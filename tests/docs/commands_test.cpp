@@ -28,7 +28,8 @@ constexpr const char* kDocuments[] = {
     "README.md",        "docs/cooking.md",    "docs/baking.md",       "docs/global_illumination.md",
     "docs/settings.md", "docs/build_farm.md", "docs/runtime.md",      "docs/streaming.md",
     "docs/reports.md",  "docs/formats.md",    "docs/ARCHITECTURE.md", "docs/GLOSSARY.md",
-    "docs/LICENCES.md", "docs/textures.md",   "docs/topology.md",     "CONTRIBUTING.md"};
+    "docs/LICENCES.md", "docs/textures.md",   "docs/topology.md",     "docs/bindings.md",
+    "docs/versions.md", "CONTRIBUTING.md"};
 
 std::string readFile(const std::string& path)
 {
