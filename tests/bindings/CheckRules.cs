@@ -54,7 +54,7 @@ static class CheckRules
         }
     }
 
-    // Reads pages, each on a thread of its own.
+    // Reads pages, each on a thread of its own. The first read fails.
     sealed class Reader
     {
         public readonly ReadPageCallback Callback; // referenced as long as the scene lives
@@ -69,16 +69,17 @@ static class CheckRules
 
         void Start(IntPtr user, uint page, IntPtr destination, UIntPtr size, PageRead read)
         {
-            Threads.Add(new Thread(() => Read(page, destination, size, read)));
+            int succeeds = Threads.Count > 0 ? 1 : 0;
+            Threads.Add(new Thread(() => Read(page, destination, size, read, succeeds)));
             Threads[Threads.Count - 1].Start();
         }
 
-        void Read(uint page, IntPtr destination, UIntPtr size, PageRead read)
+        void Read(uint page, IntPtr destination, UIntPtr size, PageRead read, int succeeds)
         {
             try
             {
                 Api.PackReadPage(pack, page, destination, size);
-                Api.ReadDone(read, 1);
+                Api.ReadDone(read, succeeds);
             }
             catch (HearthException)
             {
@@ -101,7 +102,7 @@ static class CheckRules
         Scene scene = Api.SceneUpload(renderer, pack, commands, ref options);
         Api.DeviceSubmit(device);
         ShadowCounters shadows = ShadowCounters.Default;
-        ExpectError(Api.ERROR_USAGE, "shadow", () => Api.SceneGetShadowCounters(scene, ref shadows));
+        ExpectError(Api.ERROR_USAGE, "counters: error: ", () => Api.SceneGetShadowCounters(scene, ref shadows));
         TargetsDescription size = TargetsDescription.Default;
         size.width = Width;
         size.height = Height;
@@ -111,8 +112,9 @@ static class CheckRules
         Frame frame = Frame.Default;
         frame.camera = Api.FitCamera(ref info.box_min, ref info.box_max, (float)Width / Height);
         frame.error_pixels = 0;
-        ulong settled = 0;
-        for (ulong serial = 1; settled == 0 && serial < 500; ++serial)
+        ulong settled = 0, retried = 0;
+        List<int> failed = new List<int>();
+        for (ulong serial = 1; settled <= retried && serial < 500; ++serial)
         {
             if (reader != null)
                 Api.SceneBeginFrame(scene, serial, serial - 1);
@@ -120,12 +122,23 @@ static class CheckRules
             commands = Api.DeviceBegin(device);
             Api.RecordFrame(scene, targets, commands, ref frame);
             Api.DeviceSubmit(device);
+            settled = serial;
+            if (reader == null)
+                continue;
             StreamCounters counters = StreamCounters.Default;
-            if (reader != null)
-                Api.SceneGetStreamCounters(scene, ref counters);
-            settled = reader != null ? counters.settled_serial : serial;
+            Api.SceneGetStreamCounters(scene, ref counters);
+            settled = failed.Count > 0 ? counters.settled_serial : 0;
+            if (counters.failed_page_count > 0)
+            {
+                int[] pages = new int[counters.failed_page_count];
+                Marshal.Copy(counters.failed_pages, pages, 0, pages.Length);
+                failed.AddRange(pages);
+                Api.SceneRetryFailed(scene);
+                retried = serial;
+            }
         }
-        Expect(settled > 0, "streaming settles");
+        Expect(settled > retried, "streaming settles");
+        Expect(failed.Count == (reader != null ? 1 : 0), "a failed page is counted once");
         byte[] texels = new byte[Width * Height * 4];
         GCHandle pin = GCHandle.Alloc(texels, GCHandleType.Pinned);
         TargetsInfo images = TargetsInfo.Default;
@@ -148,14 +161,19 @@ static class CheckRules
         Device device = Api.DeviceCreate(ref options);
         RendererDescription description = RendererDescription.Default;
         Api.DeviceDescribe(device, ref description);
+        List<string> warnings = new List<string>();
+        MessageCallback on_message = (user, message) => warnings.Add(Api.ReadText(message));
+        description.message = Marshal.GetFunctionPointerForDelegate(on_message);
         Renderer renderer = Api.RendererCreate(ref description);
         Reader reader = new Reader(pack);
         byte[] streamed = Draw(device, renderer, pack, reader);
-        Expect(reader.Threads.Count > 0, "pages are read");
+        Expect(reader.Threads.Count > 1, "pages are read");
+        Expect(warnings.Count == 1 && warnings[0].Contains("page"), "a page that fails is told");
         Expect(streamed.SequenceEqual(Draw(device, renderer, pack, null)), "the streamed frame is the same");
         Api.RendererDestroy(renderer);
         Api.DeviceDestroy(device);
         Api.PackClose(pack);
+        GC.KeepAlive(on_message);
         return 0;
     }
 }

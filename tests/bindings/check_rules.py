@@ -48,20 +48,21 @@ def check_packs(path):
 
 
 class Reader:
-    """Reads pages, each on a thread of its own."""
+    """Reads pages, each on a thread of its own. The first read fails."""
 
     def __init__(self, pack):
         self.pack, self.threads, self.errors = pack, [], []
         self.callback = hearth.ReadPageCallback(self.start)  # lives as long as the scene
 
     def start(self, user, page, destination, size, read):
-        self.threads.append(threading.Thread(target=self.read, args=(page, destination, size, read)))
+        succeeds = 1 if self.threads else 0
+        self.threads.append(threading.Thread(target=self.read, args=(page, destination, size, read, succeeds)))
         self.threads[-1].start()
 
-    def read(self, page, destination, size, read):
+    def read(self, page, destination, size, read, succeeds):
         try:
             hearth.pack_read_page(self.pack, page, destination, size)
-            hearth.read_done(read, 1)
+            hearth.read_done(read, succeeds)
         except hearth.Error as error:
             self.errors.append(error)
             hearth.read_done(read, 0)
@@ -75,20 +76,27 @@ def draw(device, renderer, pack, reader=None):
     commands = hearth.device_begin(device)
     scene = hearth.scene_upload(renderer, pack, commands, options)
     hearth.device_submit(device)
-    expect_error(hearth.ERROR_USAGE, "shadow", hearth.scene_get_shadow_counters, scene)
+    expect_error(hearth.ERROR_USAGE, "counters: error: ", hearth.scene_get_shadow_counters, scene)
     targets = hearth.targets_create(renderer, hearth.TargetsDescription(width=WIDTH, height=HEIGHT))
     info = hearth.scene_get_info(scene)
     frame = hearth.Frame(camera=hearth.fit_camera(info.box_min, info.box_max, WIDTH / HEIGHT), error_pixels=0)
-    serial, settled = 0, 0
-    while settled == 0 and serial < 500:
+    serial, settled, retried, failed = 0, 0, 0, []
+    while settled <= retried and serial < 500:
         serial += 1
         if reader is not None:
             hearth.scene_begin_frame(scene, serial, serial - 1)
         commands = hearth.device_begin(device)
         hearth.record_frame(scene, targets, commands, frame)
         hearth.device_submit(device)
-        settled = hearth.scene_get_stream_counters(scene).settled_serial if reader is not None else serial
-    assert settled
+        settled = serial
+        if reader is not None:
+            counters = hearth.scene_get_stream_counters(scene)
+            settled = counters.settled_serial if failed else 0
+            if counters.failed_page_count > 0:
+                failed += counters.failed_pages[:counters.failed_page_count]
+                hearth.scene_retry_failed(scene)
+                retried = serial
+    assert settled > retried and len(failed) == (0 if reader is None else 1), (settled, retried, failed)
     texels = ctypes.create_string_buffer(WIDTH * HEIGHT * 4)
     hearth.device_read_image(device, hearth.targets_get_info(targets).color, WIDTH, HEIGHT, texels, len(texels))
     for thread in reader.threads if reader is not None else ():
@@ -101,10 +109,13 @@ def draw(device, renderer, pack, reader=None):
 check_packs(sys.argv[1])
 pack = hearth.pack_open(sys.argv[1])
 device = hearth.device_create(hearth.DeviceOptions())
-renderer = hearth.renderer_create(hearth.device_describe(device))
+warnings = []
+on_message = hearth.MessageCallback(lambda user, message: warnings.append(message.decode()))
+renderer = hearth.renderer_create(hearth.device_describe(device, hearth.RendererDescription(message=on_message)))
 reader = Reader(pack)
 streamed = draw(device, renderer, pack, reader)
-assert reader.threads and not reader.errors, reader.errors
+assert len(reader.threads) > 1 and not reader.errors, reader.errors
+assert len(warnings) == 1 and "page" in warnings[0], warnings
 assert streamed == draw(device, renderer, pack), "the streamed frame is another"
 hearth.renderer_destroy(renderer)
 hearth.device_destroy(device)

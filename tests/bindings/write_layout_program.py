@@ -40,11 +40,9 @@ for name, kind in c_header.VULKAN_TYPES.items():
 for function in header.functions.values():
     lines.append(compare_function(function, f"__typeof__(&{function.name})"))
 for callback in header.callbacks.values():
-    if callback.name.startswith("hearth_memory_hooks_"):
-        member = callback.name.removeprefix("hearth_memory_hooks_").removesuffix("_callback")
-        lines.append(compare_function(callback, f"__typeof__(((hearth_memory_hooks*)0)->{member})"))
-    else:
-        lines.append(compare_function(callback, callback.name))
+    struct, _, field = callback.field.partition(".")
+    declared = f"__typeof__((({struct}*)0)->{field})" if field else callback.name
+    lines.append(compare_function(callback, declared))
 lines += ["", "static void print_bytes(const char* name, const void* value, size_t size)", "{", "    size_t i;",
           '    printf("default %s ", name);', "    for (i = 0; i < size; ++i)",
           '        printf("%02x", ((const unsigned char*)value)[i]);', '    printf("\\n");', "}", ""]

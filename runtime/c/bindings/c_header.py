@@ -48,6 +48,7 @@ class Function:
     result: Type
     parameters: list
     comment: str = ""
+    field: str = ""  # STRUCT.FIELD whose type it is; "": it has a name in C
 
 
 @dataclasses.dataclass
@@ -149,9 +150,8 @@ class _Parser:
         self.tokens = _read_tokens(text, path)
         self.at = 0
         self.comments = []  # before the next token
-        self.first_function_line = {}
         self.result_enum = None  # type of the next enum
-        self.defaults = []
+        self.defaults = []  # name, words and line of each HEARTH_..._INIT
 
     # -- tokens --
 
@@ -239,7 +239,7 @@ class _Parser:
         text = token.text.replace("\\\n", "\n")
         if re.fullmatch(r'#include\s+(<(stddef|stdint|vulkan/vulkan_core)\.h>|"hearth\.h")', text) or text == "#endif":
             return
-        if re.match(r"#ifndef HEARTH_\w*H\s*$", text) or re.fullmatch(r"#define HEARTH_\w*_?H\s*", text):
+        if re.fullmatch(r"#(ifndef|define) HEARTH_(\w+_)?H\s*", text):  # include guard
             return
         if text == "#ifdef __cplusplus":
             self.skip_linkage()
@@ -291,23 +291,23 @@ class _Parser:
             self.fail(f"{base} with 2 '*': only handles have that")
         return Type(base, pointers, is_const)
 
-    def read_variables(self, prefix):
-        """Read `TYPE a, b[3]` or `RESULT (*a)(...)`; prefix names the callback type of the latter."""
-        if self.peek().text == "void" and self.tokens[self.at + 1].text == ")":
-            self.next()
-            return []
+    def read_fields(self, struct):
+        """Read `TYPE a, b[3]` or `RESULT (*a)(...)`, which gets a type with a name."""
         declared = self.read_type()
         if self.accept("("):
             self.next("*")
             name = self.take_name("function pointer")
             self.next(")")
-            callback = f"{prefix}_{name}_callback"
+            callback = f"{struct}_{name}_callback"
             if callback in self.header.callbacks:
                 self.fail(f"{callback} exists twice")
-            self.header.callbacks[callback] = Function(callback, declared, self.read_parameters(callback))
+            self.header.callbacks[callback] = Function(callback, declared, self.read_parameters(),
+                                                       field=f"{struct}.{name}")
             return [Variable(name, Type(callback))]
-        variables = [self.read_declarator(declared)]
-        return variables
+        fields = [self.read_declarator(declared)]
+        while self.accept(","):
+            fields.append(self.read_declarator(declared))
+        return fields
 
     def read_declarator(self, declared):
         name = self.take_name("variable")
@@ -322,12 +322,14 @@ class _Parser:
             self.fail(f"{name} has no type")
         return Variable(name, declared, tuple(dimensions))
 
-    def read_parameters(self, function):
+    def read_parameters(self):
         self.next("(")
         parameters = []
+        if [token.text for token in self.tokens[self.at:self.at + 2]] == ["void", ")"]:
+            self.next()
         while not self.accept(")"):
-            parameters += self.read_variables(function)
-            if self.peek().text != ")":
+            parameters.append(self.read_declarator(self.read_type()))
+            if self.peek() is None or self.peek().text != ")":
                 self.next(",")
         return parameters
 
@@ -338,20 +340,18 @@ class _Parser:
         self.next("{")
         c_type, self.result_enum = self.result_enum or "uint32_t", None
         self.comments = []
-        value = -1
         while not self.accept("}"):
             comment = self.take_comment()
             token = self.next()
             if token.kind != "name" or not token.text.startswith("HEARTH_"):
                 self.fail(f"found {token.text!r} where a constant HEARTH_... is expected", token.line)
-            value += 1
-            if self.accept("="):
-                words = []
-                while self.peek() is not None and self.peek().text not in (",", "}"):
-                    words.append(self.next())
-                value = self.evaluate(words)
+            self.next("=")
+            words = []
+            while self.peek() is not None and self.peek().text not in (",", "}"):
+                words.append(self.next())
+            value = self.evaluate(words)
             line = self.tokens[self.at - 1].line
-            if self.peek().text != "}":
+            if self.peek() is None or self.peek().text != "}":
                 line = self.next(",").line
             self.add_constant(token.text, value, c_type, self.add_trailing_comment(comment, line))
         self.next(";")
@@ -373,7 +373,7 @@ class _Parser:
             self.next("*")
             name = self.take_name("callback")
             self.next(")")
-            self.header.callbacks[name] = Function(name, declared, self.read_parameters(name), comment)
+            self.header.callbacks[name] = Function(name, declared, self.read_parameters(), comment)
         else:
             name = self.take_name("type")
             if declared.pointers or declared.base not in PRIMITIVES:
@@ -386,12 +386,9 @@ class _Parser:
         struct = Struct(name, [], comment)
         while not self.accept("}"):
             note = self.take_comment()
-            variables = self.read_variables(name)
-            while self.accept(","):
-                variables.append(self.read_declarator(variables[0].type))
-            note = self.add_trailing_comment(note, self.next(";").line)
-            variables[0].comment = note
-            struct.fields += variables
+            fields = self.read_fields(name)
+            fields[0].comment = self.add_trailing_comment(note, self.next(";").line)
+            struct.fields += fields
         self.next(name)
         self.next(";")
         if not struct.fields:
@@ -407,7 +404,7 @@ class _Parser:
         name = self.take_name("function")
         if name in self.header.functions:
             self.fail(f"{name} exists twice")
-        self.header.functions[name] = Function(name, result, self.read_parameters(name), comment)
+        self.header.functions[name] = Function(name, result, self.read_parameters(), comment)
         self.header.library_of_function[name] = self.library
         self.next(";")
 

@@ -206,8 +206,9 @@ class _Writer:
             lines += [f"    if {call.destroyed} is not None:", f"        {call.destroyed}.value = None"]
         if call.owner:
             lines.append(f"    {_python_name(call.returned[0].name)}._owner = {_python_name(call.owner)}")
-        results = [_python_name(p.name) + ("" if is_handle(self.header, p.type, 2) else ".value")
-                   for p in call.returned] + [_python_name(p.name) for p in call.filled]
+        is_number = {p.name: not is_handle(self.header, p.type, 2) for p in call.returned}
+        results = [_python_name(p.name) + (".value" if is_number.get(p.name) else "") for p in function.parameters
+                   if p in call.returned or p in call.filled]
         return lines + ([f"    return {', '.join(results)}"] if results else [])
 
     def write_argument(self, parameter, call):
