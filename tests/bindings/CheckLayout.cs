@@ -11,7 +11,8 @@ static class CheckLayout
     static string JoinWords(string name)
     {
         string plain = name.StartsWith("hearth_") ? name.Substring(7) : name;
-        return string.Concat(plain.Split('_').Select(word => char.ToUpperInvariant(word[0]) + word.Substring(1)));
+        var words = plain.Split('_').Select(word => char.ToUpperInvariant(word[0]) + word.Substring(1));
+        return string.Concat(words);
     }
 
     static Type FindStruct(string name)
@@ -31,10 +32,11 @@ static class CheckLayout
 
     static string Find(string kind, string name)
     {
+        Type api = typeof(Hearth.Api);
         switch (kind)
         {
-            case "constant": return typeof(Hearth.Api).GetField(name.Substring(7)).GetRawConstantValue().ToString();
-            case "function": return typeof(Hearth.Api).GetMethods().Any(m => m.Name == JoinWords(name)) ? "" : "missing";
+            case "constant": return api.GetField(name.Substring(7)).GetRawConstantValue().ToString();
+            case "function": return api.GetMethods().Any(m => m.Name == JoinWords(name)) ? "" : "missing";
             case "default": return ReadDefault(FindStruct(name));
             case "struct": return Marshal.SizeOf(FindStruct(name)).ToString();
         }

@@ -25,7 +25,7 @@ static class CheckRules
         }
         catch (HearthException error)
         {
-            Expect(error.Result == result && error.Message.Contains(part), error.Result + " " + error.Message);
+            Expect(error.Result == result && error.Message.Contains(part), error.Message);
             return;
         }
         throw new Exception("a call has not failed: " + part);
@@ -102,7 +102,8 @@ static class CheckRules
         Scene scene = Api.SceneUpload(renderer, pack, commands, ref options);
         Api.DeviceSubmit(device);
         ShadowCounters shadows = ShadowCounters.Default;
-        ExpectError(Api.ERROR_USAGE, "counters: error: ", () => Api.SceneGetShadowCounters(scene, ref shadows));
+        ExpectError(Api.ERROR_USAGE, "counters: error: ",
+            () => Api.SceneGetShadowCounters(scene, ref shadows));
         TargetsDescription size = TargetsDescription.Default;
         size.width = Width;
         size.height = Height;
@@ -143,7 +144,8 @@ static class CheckRules
         GCHandle pin = GCHandle.Alloc(texels, GCHandleType.Pinned);
         TargetsInfo images = TargetsInfo.Default;
         Api.TargetsGetInfo(targets, ref images);
-        Api.DeviceReadImage(device, ref images.color, Width, Height, pin.AddrOfPinnedObject(), (UIntPtr)texels.Length);
+        Api.DeviceReadImage(device, ref images.color, Width, Height, pin.AddrOfPinnedObject(),
+            (UIntPtr)texels.Length);
         pin.Free();
         if (reader != null)
             reader.Threads.ForEach(thread => thread.Join());

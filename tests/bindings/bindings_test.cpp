@@ -1,5 +1,6 @@
-// Tests the bindings for Python and C#: layouts, defaults and constants equal the C compiler's, the examples draw the
-// image of the example in C, errors and callbacks follow the rules; headers that bindings cannot have are refused.
+// Tests the bindings for Python and C#: layouts, defaults and constants equal the C compiler's, the examples
+// draw the image of the example in C, errors and callbacks follow the rules; headers that bindings cannot
+// have are refused.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/compare/image.h"
 #include "tests/support/sandbox.h"

@@ -7,7 +7,8 @@ import hearth
 
 
 def find_struct(name):
-    return getattr(hearth, "".join(word[:1].upper() + word[1:] for word in name.removeprefix("hearth_").split("_")))
+    words = name.removeprefix("hearth_").split("_")
+    return getattr(hearth, "".join(word[:1].upper() + word[1:] for word in words))
 
 
 def compare(kind, name, *expected):

@@ -56,7 +56,8 @@ class Reader:
 
     def start(self, user, page, destination, size, read):
         succeeds = 1 if self.threads else 0
-        self.threads.append(threading.Thread(target=self.read, args=(page, destination, size, read, succeeds)))
+        arguments = (page, destination, size, read, succeeds)
+        self.threads.append(threading.Thread(target=self.read, args=arguments))
         self.threads[-1].start()
 
     def read(self, page, destination, size, read, succeeds):
@@ -98,7 +99,8 @@ def draw(device, renderer, pack, reader=None):
                 retried = serial
     assert settled > retried and len(failed) == (0 if reader is None else 1), (settled, retried, failed)
     texels = ctypes.create_string_buffer(WIDTH * HEIGHT * 4)
-    hearth.device_read_image(device, hearth.targets_get_info(targets).color, WIDTH, HEIGHT, texels, len(texels))
+    image = hearth.targets_get_info(targets).color
+    hearth.device_read_image(device, image, WIDTH, HEIGHT, texels, len(texels))
     for thread in reader.threads if reader is not None else ():
         thread.join()
     hearth.targets_destroy(targets)
@@ -111,7 +113,8 @@ pack = hearth.pack_open(sys.argv[1])
 device = hearth.device_create(hearth.DeviceOptions())
 warnings = []
 on_message = hearth.MessageCallback(lambda user, message: warnings.append(message.decode()))
-renderer = hearth.renderer_create(hearth.device_describe(device, hearth.RendererDescription(message=on_message)))
+description = hearth.RendererDescription(message=on_message)
+renderer = hearth.renderer_create(hearth.device_describe(device, description))
 reader = Reader(pack)
 streamed = draw(device, renderer, pack, reader)
 assert len(reader.threads) > 1 and not reader.errors, reader.errors

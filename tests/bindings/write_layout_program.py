@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-"""write_layout_program.py FOLDER OUT.c HEADER...: write a C program that prints the layout, the defaults and the
-constants that the C compiler gives to what c_header.py, in FOLDER, has read. It compiles only if the functions have
-the types that were read."""
+"""write_layout_program.py FOLDER OUT.c HEADER...: write a C program that prints the layout, the defaults and
+the constants that the C compiler gives to what c_header.py, in FOLDER, has read. It compiles only if the
+functions have the types that were read."""
 import os
 import sys
 
@@ -31,7 +31,8 @@ header = None
 for path in paths:
     header = c_header.read_header(path, "", header)
 
-lines = ["/* Made by write_layout_program.py. */"] + [f'#include "{os.path.basename(path)}"' for path in paths]
+lines = ["/* Made by write_layout_program.py. */"]
+lines += [f'#include "{os.path.basename(path)}"' for path in paths]
 lines += ["#include <stdio.h>", ""]
 for name, kind in c_header.VULKAN_TYPES.items():
     if kind != "opaque":
@@ -43,7 +44,8 @@ for callback in header.callbacks.values():
     struct, _, field = callback.field.partition(".")
     declared = f"__typeof__((({struct}*)0)->{field})" if field else callback.name
     lines.append(compare_function(callback, declared))
-lines += ["", "static void print_bytes(const char* name, const void* value, size_t size)", "{", "    size_t i;",
+lines += ["", "static void print_bytes(const char* name, const void* value, size_t size)", "{",
+          "    size_t i;",
           '    printf("default %s ", name);', "    for (i = 0; i < size; ++i)",
           '        printf("%02x", ((const unsigned char*)value)[i]);', '    printf("\\n");', "}", ""]
 sized = [s for s in header.structs.values() if s.default is not None]
@@ -52,8 +54,8 @@ lines += ["", "int main(void)", "{"]
 for struct in header.structs.values():
     lines.append(f'    printf("struct {struct.name} %zu\\n", sizeof({struct.name}));')
     for field in struct.fields:
-        lines.append(f'    printf("field {struct.name}.{field.name} %zu %zu\\n", offsetof({struct.name}, {field.name}), '
-                     f"sizeof((({struct.name}*)0)->{field.name}));")
+        place, size = f"offsetof({struct.name}, {field.name})", f"sizeof((({struct.name}*)0)->{field.name})"
+        lines.append(f'    printf("field {struct.name}.{field.name} %zu %zu\\n", {place}, {size});')
 lines += [f'    print_bytes("{s.name}", &{s.name}_default, sizeof({s.name}));' for s in sized]
 lines += [f'    printf("constant {name} %lld\\n", (long long){name});' for name in header.constants]
 lines += ["    return 0;", "}"]

@@ -71,29 +71,32 @@ class Header:
     library_of_function: dict = dataclasses.field(default_factory=dict)
 
 
-PRIMITIVES = ("void", "char", "unsigned char", "int", "float", "double", "size_t", "int8_t", "int16_t", "int32_t",
-              "int64_t", "uint8_t", "uint16_t", "uint32_t", "uint64_t")
+PRIMITIVES = """char float double int int8_t int16_t int32_t int64_t size_t uint8_t uint16_t uint32_t uint64_t
+    void""".split() + ["unsigned char"]
 
-# Types of vulkan_core.h as bindings see them; "opaque" only behind a pointer. The test of layouts compares
-# their sizes with the compiler's.
-VULKAN_TYPES = {
-    **{name: "pointer" for name in ("VkInstance", "VkPhysicalDevice", "VkDevice", "VkQueue", "VkCommandBuffer",
-                                    "PFN_vkGetInstanceProcAddr")},
-    **{name: "uint64_t" for name in ("VkBuffer", "VkDescriptorSet", "VkDescriptorSetLayout", "VkDeviceMemory",
-                                     "VkDeviceSize", "VkFence", "VkFramebuffer", "VkImage", "VkImageView",
-                                     "VkPipeline", "VkPipelineCache", "VkPipelineLayout", "VkQueryPool",
-                                     "VkRenderPass", "VkSampler", "VkSemaphore", "VkShaderModule")},
-    **{name: "int32_t" for name in ("VkColorSpaceKHR", "VkFormat", "VkImageLayout", "VkResult")},
-    **{name: "uint32_t" for name in ("VkAccessFlags", "VkBool32", "VkFlags", "VkImageAspectFlags",
-                                     "VkImageUsageFlags", "VkPipelineStageFlags", "VkSampleCountFlags")},
-    "VkAllocationCallbacks": "opaque",
+# Types of vulkan_core.h as bindings see them. The test of layouts compares their sizes with the compiler's.
+_VULKAN_TYPES_OF_KIND = {
+    "pointer": "PFN_vkGetInstanceProcAddr VkCommandBuffer VkDevice VkInstance VkPhysicalDevice VkQueue",
+    "uint64_t": """VkBuffer VkDescriptorSet VkDescriptorSetLayout VkDeviceMemory VkDeviceSize VkFence
+        VkFramebuffer VkImage VkImageView VkPipeline VkPipelineCache VkPipelineLayout VkQueryPool VkRenderPass
+        VkSampler VkSemaphore VkShaderModule""",
+    "int32_t": "VkColorSpaceKHR VkFormat VkImageLayout VkResult",
+    "uint32_t": """VkAccessFlags VkBool32 VkFlags VkImageAspectFlags VkImageUsageFlags VkPipelineStageFlags
+        VkSampleCountFlags""",
+    "opaque": "VkAllocationCallbacks",  # only behind a pointer
 }
+VULKAN_TYPES = {name: kind for kind, names in _VULKAN_TYPES_OF_KIND.items() for name in names.split()}
+
+
+def _vulkan_struct(name, **types):
+    return Struct(name, [Variable(field, Type(base)) for field, base in types.items()])
+
+
 VULKAN_STRUCTS = (
-    Struct("VkMemoryRequirements", [Variable("size", Type("uint64_t")), Variable("alignment", Type("uint64_t")),
-                                    Variable("memoryTypeBits", Type("uint32_t"))]),
-    Struct("VkExtent2D", [Variable("width", Type("uint32_t")), Variable("height", Type("uint32_t"))]),
-    Struct("VkOffset2D", [Variable("x", Type("int32_t")), Variable("y", Type("int32_t"))]),
-    Struct("VkRect2D", [Variable("offset", Type("VkOffset2D")), Variable("extent", Type("VkExtent2D"))]),
+    _vulkan_struct("VkMemoryRequirements", size="uint64_t", alignment="uint64_t", memoryTypeBits="uint32_t"),
+    _vulkan_struct("VkExtent2D", width="uint32_t", height="uint32_t"),
+    _vulkan_struct("VkOffset2D", x="int32_t", y="int32_t"),
+    _vulkan_struct("VkRect2D", offset="VkOffset2D", extent="VkExtent2D"),
 )
 
 # Constants of other headers that defaults and numbers may name.
@@ -237,7 +240,8 @@ class _Parser:
         comment = self.take_comment()
         token = self.next()
         text = token.text.replace("\\\n", "\n")
-        if re.fullmatch(r'#include\s+(<(stddef|stdint|vulkan/vulkan_core)\.h>|"hearth\.h")', text) or text == "#endif":
+        known_headers = r'<(stddef|stdint|vulkan/vulkan_core)\.h>|"hearth\.h"'
+        if text == "#endif" or re.fullmatch(rf"#include\s+({known_headers})", text):
             return
         if re.fullmatch(r"#(ifndef|define) HEARTH_(\w+_)?H\s*", text):  # include guard
             return
@@ -249,7 +253,8 @@ class _Parser:
             self.fail(f"cannot read {text.splitlines()[0]!r}: only integers and HEARTH_..._INIT are defined",
                       token.line)
         name = define.group(1)
-        words = [word for word in _read_tokens(define.group(2), self.path, token.line) if word.kind != "comment"]
+        words = [word for word in _read_tokens(define.group(2), self.path, token.line)
+                 if word.kind != "comment"]
         if name.endswith("_INIT"):
             self.defaults.append((name, words, token.line))
         else:
@@ -273,8 +278,8 @@ class _Parser:
         if not is_const:
             is_const = self.accept("const") is not None
         header = self.header
-        if base not in PRIMITIVES and base not in VULKAN_TYPES and not any(
-                base in known for known in (header.aliases, header.handles, header.structs, header.callbacks)):
+        declared = (header.aliases, header.handles, header.structs, header.callbacks)
+        if not any(base in known for known in (PRIMITIVES, VULKAN_TYPES, *declared)):
             self.at -= 1
             remedy = ("add it to VULKAN_TYPES of c_header.py" if base.startswith(("Vk", "PFN_vk"))
                       else "declare it above")
@@ -419,7 +424,8 @@ class _Parser:
             elif token.text in readers:
                 readers[token.text]()
             else:
-                self.fail(f"found {token.text!r} where a declaration is expected: enum, typedef or HEARTH_API")
+                self.fail(f"found {token.text!r} where a declaration is expected: enum, typedef or "
+                          "HEARTH_API")
             self.comments = []
         for name, words, line in self.defaults:
             self.read_default(name, words, line)

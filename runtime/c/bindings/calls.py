@@ -32,13 +32,16 @@ def is_handle(header, c_type, pointers=1):
     return c_type.base in header.handles and c_type.pointers == pointers
 
 
+def makes_handle(header, c_type):
+    return is_handle(header, c_type, 2) and not c_type.is_const
+
+
 def _owner_types(header):
-    """Return for each kind of handle the kind that it is made from: the first handle of the function that creates it."""
+    """Return the kind of handle that each kind is made from: that of its creator's first handle, or ""."""
     owners = {}
     for function in header.functions.values():
-        made = [p.type.base for p in function.parameters if is_handle(header, p.type, 2) and not p.type.is_const]
         used = [p.type.base for p in function.parameters if is_handle(header, p.type)]
-        for kind in made:
+        for kind in (p.type.base for p in function.parameters if makes_handle(header, p.type)):
             owners.setdefault(kind, used[0] if used else "")
     return owners
 
@@ -70,7 +73,8 @@ def describe_call(header, function):
     has_message = [p.name for p in parameters[-2:]] == ["message", "message_size"]
     if has_message:
         parameters = parameters[:-2]
-    has_count = any(not p.type.pointers and re.search(r"(^|_)(count|size|capacity)$", p.name) for p in parameters)
+    numbers = [p.name for p in parameters if not p.type.pointers]
+    has_count = any(re.search(r"(^|_)(count|size|capacity)$", name) for name in numbers)
     call = Call(function, [], [], [], function.result.base == "hearth_result", has_message)
     for parameter in parameters:
         c_type = parameter.type

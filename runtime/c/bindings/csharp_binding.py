@@ -5,23 +5,26 @@ import itertools
 from calls import describe_call, is_handle, join_words, list_defaults, name_place
 from c_header import VULKAN_TYPES, HeaderError
 
-_PRIMITIVES = {"void": "void", "char": "byte", "unsigned char": "byte", "int": "int", "float": "float",
-               "double": "double", "size_t": "UIntPtr", "pointer": "IntPtr", "int8_t": "sbyte", "uint8_t": "byte",
-               "int16_t": "short", "uint16_t": "ushort", "int32_t": "int", "uint32_t": "uint", "int64_t": "long",
-               "uint64_t": "ulong"}
+_PRIMITIVES = {
+    "void": "void", "char": "byte", "unsigned char": "byte", "int": "int", "float": "float",
+    "double": "double", "size_t": "UIntPtr", "pointer": "IntPtr", "int8_t": "sbyte", "uint8_t": "byte",
+    "int16_t": "short", "uint16_t": "ushort", "int32_t": "int", "uint32_t": "uint", "int64_t": "long",
+    "uint64_t": "ulong"}
 
-_KEYWORDS = set("""abstract as base bool break byte case catch char checked class const continue decimal default
-    delegate do double else enum event explicit extern false finally fixed float for foreach goto if implicit in int
-    interface internal is lock long namespace new null object operator out override params private protected public
-    readonly ref return sbyte sealed short sizeof stackalloc static string struct switch this throw true try typeof
-    uint ulong unchecked unsafe ushort using virtual void volatile while""".split())
+_KEYWORDS = set("""abstract as base bool break byte case catch char checked class const continue decimal
+    default delegate do double else enum event explicit extern false finally fixed float for foreach goto if
+    implicit in int interface internal is lock long namespace new null object operator out override params
+    private protected public readonly ref return sbyte sealed short sizeof stackalloc static string struct
+    switch this throw true try typeof uint ulong unchecked unsafe ushort using virtual void volatile
+    while""".split())
 
 _HEAD = '''// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-// C# binding of Hearth {version}, made from its C headers. Names lack the prefix hearth_; fields have their C names.
+// C# binding of Hearth {version}, made from its C headers. Names lack the prefix hearth_; fields have their C
+// names.
 //
-// Structs have the layout of C, and Default for HEARTH_..._INIT. A handle or a number that a C function writes is
-// returned, several are `out`. A pointer to a struct is `ref`, or an IntPtr for NULL and arrays. A failed call throws
-// HearthException. See docs/bindings.md for threads, lifetimes and the garbage collector.
+// Structs have the layout of C, and Default for HEARTH_..._INIT. A handle or a number that a C function
+// writes is returned, several are `out`. A pointer to a struct is `ref`, or an IntPtr for NULL and arrays. A
+// failed call throws HearthException. See docs/bindings.md for threads, lifetimes and the garbage collector.
 using System;
 using System.Runtime.InteropServices;
 using System.Text;
@@ -41,7 +44,7 @@ public sealed class HearthException : Exception
     }}
 }}
 
-/// <summary>Object of the library. It is not destroyed by the garbage collector, but by its Destroy or Close.</summary>
+/// <summary>Object of the library, which lives until its Destroy or Close: it has no finalizer.</summary>
 public abstract class Handle
 {{
     internal IntPtr pointer;
@@ -111,7 +114,8 @@ def _write_comment(comment, indent):
     text = comment.replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;").split("\n")
     if len(text) == 1:
         return [f"{indent}/// <summary>{text[0]}</summary>"]
-    return [f"{indent}/// <summary>"] + [f"{indent}/// {line}".rstrip() for line in text] + [f"{indent}/// </summary>"]
+    lines = ["<summary>"] + text + ["</summary>"]
+    return [f"{indent}/// {line}".rstrip() for line in lines]
 
 
 class _Parameter:
@@ -133,8 +137,9 @@ class _Writer:
 
     def name_array(self, base, dimensions):
         element = self.name_base(base)
-        short = {"ushort": "UShort", "uint": "UInt", "ulong": "ULong"}.get(element, element[:1].upper() + element[1:])
-        name = short + "x".join(str(size) for size in dimensions)
+        capitals = {"ushort": "UShort", "uint": "UInt", "ulong": "ULong"}
+        name = capitals.get(element, element[:1].upper() + element[1:])
+        name += "x".join(str(size) for size in dimensions)
         self.arrays[name] = (element, dimensions)
         return name
 
@@ -144,7 +149,9 @@ class _Writer:
             if field.dimensions:
                 raise HeaderError(f"{field.name} is an array of pointers, which the C# binding does not know")
             return "IntPtr"
-        return self.name_array(c_type.base, field.dimensions) if field.dimensions else self.name_base(c_type.base)
+        if field.dimensions:
+            return self.name_array(c_type.base, field.dimensions)
+        return self.name_base(c_type.base)
 
     def write_constants(self):
         lines = []
@@ -158,7 +165,8 @@ class _Writer:
     def write_handles(self):
         lines = []
         for name, comment in self.header.handles.items():
-            lines += [""] + _write_comment(comment, "") + [f"public sealed class {join_words(name)} : Handle", "{", "}"]
+            lines += [""] + _write_comment(comment, "")
+            lines += [f"public sealed class {join_words(name)} : Handle", "{", "}"]
         return lines
 
     def write_callbacks(self):
@@ -186,7 +194,8 @@ class _Writer:
                 lines.append(f"    public {self.name_field(field)} {_csharp_name(field.name)};")
             defaults = list_defaults(struct.default or [])
             if struct.is_sized:
-                lines += ["", f"    private static readonly uint Size = (uint)Marshal.SizeOf(typeof({name}));"]
+                size = f"(uint)Marshal.SizeOf(typeof({name}))"
+                lines += ["", f"    private static readonly uint Size = {size};"]
             if struct.default is not None:
                 lines += ["", f"    /// <summary>{struct.name.upper()}_INIT</summary>",
                           f"    public static {name} Default", "    {", "        get", "        {",
@@ -214,7 +223,8 @@ class _Writer:
             flat, check = indices[0], f"(uint){indices[0]} >= {dimensions[0]}"
             for index, size in zip(indices[1:], dimensions[1:]):
                 flat, check = f"({flat}) * {size} + {index}", f"{check} || (uint){index} >= {size}"
-            lines += ["", f"/// <summary>{element}{''.join(f'[{size}]' for size in dimensions)} of C.</summary>",
+            brackets = "".join(f"[{size}]" for size in dimensions)
+            lines += ["", f"/// <summary>{element}{brackets} of C.</summary>",
                       "[StructLayout(LayoutKind.Sequential)]", f"public struct {name}", "{",
                       f"    private {element} {', '.join(elements)};", "",
                       f"    public {name}({', '.join(f'{element} {e}' for e in elements)})", "    {"]
@@ -222,8 +232,8 @@ class _Writer:
             lines += [f"    public {element} this[{', '.join(f'int {index}' for index in indices)}]", "    {"]
             for accessor, statement in (("get", "return {};"), ("set", "{} = value; return;")):
                 lines += [f"        {accessor}", "        {", f"            if ({check})",
-                          "                throw new IndexOutOfRangeException();", f"            switch ({flat})",
-                          "            {"]
+                          "                throw new IndexOutOfRangeException();",
+                          f"            switch ({flat})", "            {"]
                 for index, e in enumerate(elements):
                     label = f"case {index}:" if index + 1 < count else "default:"
                     lines.append(f"            {label} {statement.format(e)}")
@@ -292,7 +302,8 @@ class _Writer:
         if len(kinds) == 1:
             result = kinds[0]
         else:
-            declared = declared + [f"out {kind} {_csharp_name(p.name)}" for kind, p in zip(kinds, call.returned)]
+            outputs = zip(kinds, call.returned)
+            declared = declared + [f"out {kind} {_csharp_name(p.name)}" for kind, p in outputs]
         lines = [""] + _write_comment(function.comment, "    ")
         lines += [f"    public static {result} {join_words(function.name)}({', '.join(declared)})", "    {"]
         if not call.throws:
@@ -315,7 +326,8 @@ class _Writer:
         lines += [f"        int result = {invocation};", "        if (result != OK)",
                   f'            throw Fail("{function.name}", result, {message});']
         if call.destroyed:
-            lines += [f"        if ({call.destroyed} != null)", f"            {call.destroyed}.pointer = IntPtr.Zero;"]
+            lines += [f"        if ({call.destroyed} != null)",
+                      f"            {call.destroyed}.pointer = IntPtr.Zero;"]
         results = []
         for kind, p in zip(kinds, call.returned):
             owner = f", owner = {_csharp_name(call.owner)}" if call.owner else ""
@@ -340,7 +352,8 @@ def write_csharp(header, libraries):
         natives += native_lines
         methods += method_lines
     types += writer.write_arrays()
-    lines = types + ["", "/// <summary>The functions and constants of hearth.h.</summary>", "public static class Api", "{"]
+    lines = types + ["", "/// <summary>The functions and constants of hearth.h.</summary>"]
+    lines += ["public static class Api", "{"]
     lines += writer.write_constants() + _HELPERS.rstrip("\n").split("\n") + methods
     lines += ["", "    private static class Native", "    {"] + natives[1:] + ["    }", "}", "", "}"]
     return _HEAD.format(version=f"{version >> 16}.{version & 0xFFFF}") + "\n".join(lines) + "\n"

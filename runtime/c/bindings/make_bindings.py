@@ -3,7 +3,8 @@
 """make_bindings.py --header HEARTH.H LIBRARY ... [--python FILE] [--csharp FILE]: make bindings of the C API.
 
 A header names the file of the library that has its functions; later headers may use types of earlier ones.
-Needs Python 3.9 and nothing else. Exit code 1, and no output, if a header has something that bindings cannot have.
+Needs Python 3.9 and nothing else. Exit code 1, and no output, if a header has something that bindings
+cannot have.
 """
 import argparse
 import os
@@ -23,7 +24,8 @@ def write_whole(path, text):
 
 
 def main():
-    options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    options = argparse.ArgumentParser(description=__doc__,
+                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     options.add_argument("--header", nargs=2, action="append", required=True, metavar=("FILE", "LIBRARY"))
     options.add_argument("--python", metavar="FILE")
     options.add_argument("--csharp", metavar="FILE")
@@ -34,8 +36,8 @@ def main():
             library = re.sub(r"^lib|\.so.*$", "", file)
             header = read_header(path, library, header)
             libraries[library] = file
-        outputs = [(path, write(header, libraries)) for path, write in ((arguments.python, write_python),
-                                                                        (arguments.csharp, write_csharp)) if path]
+        writers = ((arguments.python, write_python), (arguments.csharp, write_csharp))
+        outputs = [(path, write(header, libraries)) for path, write in writers if path]
         for path, text in outputs:
             write_whole(path, text)
     except (HeaderError, OSError) as error:

@@ -5,16 +5,17 @@ import keyword
 from calls import describe_call, is_handle, join_words, list_defaults, name_place
 from c_header import VULKAN_TYPES, Variable
 
-_PRIMITIVES = {"char": "c_char", "unsigned char": "c_ubyte", "int": "c_int", "float": "c_float",
-               "double": "c_double", "size_t": "c_size_t", "pointer": "c_void_p",
-               **{f"{sign}int{bits}_t": f"c_{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)}}
+_PRIMITIVES = {
+    "char": "c_char", "unsigned char": "c_ubyte", "int": "c_int", "float": "c_float", "double": "c_double",
+    "size_t": "c_size_t", "pointer": "c_void_p",
+    **{f"{sign}int{bits}_t": f"c_{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)}}
 
 _HEAD = '''# SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 """Python binding of Hearth {version}, made from its C headers. Names lack the prefix hearth_.
 
-Structs have the defaults of HEARTH_..._INIT: Frame(error_pixels=2). Handles and numbers that a C function writes
-are returned. Structs that it writes may be left out: scene_get_info(scene) returns one. A failed call raises
-Error. Handles and numbers of Vulkan are int. See docs/bindings.md for threads and lifetimes.
+Structs have the defaults of HEARTH_..._INIT: Frame(error_pixels=2). Handles and numbers that a C function
+writes are returned. Structs that it writes may be left out: scene_get_info(scene) returns one. A failed call
+raises Error. Handles and numbers of Vulkan are int. See docs/bindings.md for threads and lifetimes.
 """
 import ctypes
 import os
@@ -150,7 +151,8 @@ class _Writer:
     def write_types(self):
         lines = []
         for name, comment in self.header.handles.items():
-            lines += ["", "", f"class {join_words(name)}(_Handle):"] + (_docstring(comment, "    ") or ["    pass"])
+            lines += ["", "", f"class {join_words(name)}(_Handle):"]
+            lines += _docstring(comment, "    ") or ["    pass"]
         for struct in self.header.structs.values():
             lines += ["", "", f"class {join_words(struct.name)}(_Struct):"]
             lines += _docstring(struct.comment, "    ") + ["    __slots__ = ()"]
@@ -206,9 +208,9 @@ class _Writer:
             lines += [f"    if {call.destroyed} is not None:", f"        {call.destroyed}.value = None"]
         if call.owner:
             lines.append(f"    {_python_name(call.returned[0].name)}._owner = {_python_name(call.owner)}")
-        is_number = {p.name: not is_handle(self.header, p.type, 2) for p in call.returned}
-        results = [_python_name(p.name) + (".value" if is_number.get(p.name) else "") for p in function.parameters
-                   if p in call.returned or p in call.filled]
+        numbers = [p.name for p in call.returned if not is_handle(self.header, p.type, 2)]
+        results = [_python_name(p.name) + (".value" if p.name in numbers else "")
+                   for p in function.parameters if p in call.returned or p in call.filled]
         return lines + ([f"    return {', '.join(results)}"] if results else [])
 
     def write_argument(self, parameter, call):

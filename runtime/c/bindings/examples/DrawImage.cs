@@ -1,5 +1,5 @@
-// DrawImage PACK.hearth OUT.ppm: draws a pack without a window, from its first camera or, if it has none, from one that
-// shows the whole scene.
+// DrawImage PACK.hearth OUT.ppm: draws a pack without a window, from its first camera or, if it has none,
+// from one that shows the whole scene.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 using System;
 using System.IO;

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-"""draw_image.py PACK.hearth OUT.ppm: draws a pack without a window, from its first camera or, if it has none, from
-one that shows the whole scene."""
+"""draw_image.py PACK.hearth OUT.ppm: draws a pack without a window, from its first camera or, if it has none,
+from one that shows the whole scene."""
 import contextlib
 import ctypes
 import sys
@@ -30,7 +30,7 @@ def draw(path):
         stack.callback(hearth.renderer_destroy, renderer)
 
         commands = hearth.device_begin(device)
-        options = hearth.SceneOptions(flags=hearth.SCENE_DECODE_TEXTURES)  # draws packs for phones on any device
+        options = hearth.SceneOptions(flags=hearth.SCENE_DECODE_TEXTURES)  # draws packs for phones, too
         scene = hearth.scene_upload(renderer, pack, commands, options)
         stack.callback(hearth.scene_destroy, scene)
         hearth.device_submit(device)
