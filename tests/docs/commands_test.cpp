@@ -170,6 +170,18 @@ TEST(DocumentLists, nameEveryDocument)
             EXPECT_THAT(documents, ::testing::Contains("docs/" + entry.path().filename().string()));
 }
 
+TEST(DocumentLists, haveASectionForTheVersionOfTheApi)
+{
+    const std::string header = readFile(HEARTH_SOURCE_DIR "/runtime/c/hearth.h");
+    const std::string define = "#define HEARTH_API_VERSION ";
+    const size_t at = header.find(define);
+    ASSERT_NE(at, std::string::npos);
+    const unsigned long version = std::stoul(header.substr(at + define.size()), nullptr, 16);
+    EXPECT_THAT(readFile(HEARTH_SOURCE_DIR "/docs/versions.md"),
+                ::testing::HasSubstr("\n### " + std::to_string(version >> 16) + "." +
+                                     std::to_string(version & 0xFFFFu) + "\n"));
+}
+
 TEST(DocumentLinks, leadToFilesAndSections)
 {
     for (const auto& entry : fs::recursive_directory_iterator(HEARTH_SOURCE_DIR))
