@@ -38,7 +38,8 @@ uint32_t configurationIndex(const FrameConfiguration& configuration);
 /// Uses of an image by the caller that a frame waits for.
 inline constexpr VkPipelineStageFlags kCallerStages =
     VK_PIPELINE_STAGE_TRANSFER_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
-/// Uses of the depth by the caller that a frame waits for: its own passes test it, sample it and may write it.
+/// Uses of the depth by the caller that a frame waits for: its own passes test it, sample it and may write
+/// it.
 inline constexpr VkPipelineStageFlags kCallerDepthStages =
     kCallerStages | VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT |
     VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
