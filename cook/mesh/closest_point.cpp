@@ -110,6 +110,16 @@ ClosestPoint::Hit ClosestPoint::find(Float3 point, Float3 normal, double limit2,
     return best;
 }
 
+ClosestPoint::Hit ClosestPoint::findAnywhere(Float3 point, Float3 normal, uint32_t hint,
+                                             double min_cosine) const
+{
+    constexpr double kAnyDistance = std::numeric_limits<double>::infinity();
+    Hit found = find(point, normal, kAnyDistance, hint, min_cosine);
+    if (found.triangle == kInvalidIndex)
+        found = find(point, normal, kAnyDistance, hint);
+    return found.triangle != kInvalidIndex ? found : find(point, {}, kAnyDistance, hint);
+}
+
 double ClosestPoint::findDistance2(Float3 point, uint32_t triangle) const
 {
     Hit hit{kInvalidIndex, 0, 0, std::numeric_limits<double>::infinity()};

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <tbb/parallel_for.h>
 
@@ -63,12 +62,9 @@ public:
 private:
     mesh::ClosestPoint::Hit find(Float3 position, Float3 normal, uint32_t hint) const
     {
-        constexpr double kAnyDistance = std::numeric_limits<double>::infinity();
-        mesh::ClosestPoint::Hit found = closest_.find(position, normal, kAnyDistance, hint, kMinCosine);
+        const mesh::ClosestPoint::Hit found = closest_.findAnywhere(position, normal, hint, kMinCosine);
         if (found.triangle == kInvalidIndex)
-            found = closest_.find(position, normal, kAnyDistance, hint);
-        if (found.triangle == kInvalidIndex)
-            return closest_.find(position, {}, kAnyDistance, hint);
+            return found;
         const double reach =
             std::sqrt(found.distance2) + kCloseDistance * mesh::longestEdge(mesh_, found.triangle);
         const mesh::ClosestPoint::Hit alike =

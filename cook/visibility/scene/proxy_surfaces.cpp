@@ -81,13 +81,7 @@ public:
     /// hint  as of ClosestPoint::find
     mesh::ClosestPoint::Hit find(Float3 point, Float3 facing, uint32_t hint) const
     {
-        constexpr double kAnyDistance = std::numeric_limits<double>::infinity();
-        mesh::ClosestPoint::Hit found = closest_.find(point, facing, kAnyDistance, hint, kMinCosine);
-        if (found.triangle == kInvalidIndex)
-            found = closest_.find(point, facing, kAnyDistance, hint);
-        if (found.triangle == kInvalidIndex)
-            found = closest_.find(point, {}, kAnyDistance, hint);
-        return found;
+        return closest_.findAnywhere(point, facing, hint, kMinCosine);
     }
 
     /// Return the normal at a point that was found, `facing` if it is on the other side.
