@@ -111,14 +111,15 @@ private:
 
 } // namespace
 
-SplitSurface splitLongEdges(std::span<const Float3> positions, std::span<const uint32_t> indices,
-                            float max_length)
+std::optional<SplitSurface> splitLongEdges(std::span<const Float3> positions,
+                                           std::span<const uint32_t> indices, float max_length,
+                                           size_t max_triangles)
 {
     HEARTH_ASSERT(max_length > 0);
     SplitSurface surface{{positions.begin(), positions.end()}, {indices.begin(), indices.end()}, {}};
     for (uint32_t t = 0; t < indices.size() / 3; ++t)
         surface.source_triangle.push_back(t);
-    for (;;)
+    while (surface.source_triangle.size() <= max_triangles)
     {
         SplitRound round(surface, max_length);
         SplitSurface split = round.run();
@@ -126,6 +127,7 @@ SplitSurface splitLongEdges(std::span<const Float3> positions, std::span<const u
             return surface;
         surface = std::move(split);
     }
+    return std::nullopt;
 }
 
 } // namespace hearth::mesh

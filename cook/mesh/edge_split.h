@@ -4,7 +4,9 @@
 
 #include "formats/base/math.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -20,10 +22,13 @@ struct SplitSurface
 
 /// Split edges at their middles until none is longer than `max_length`. Triangles that share an edge share
 /// its parts, so that closed surfaces stay closed. A triangle becomes two, three or four in each round.
-/// positions   finite
-/// indices     three for each triangle, in range
-/// max_length  > 0
-SplitSurface splitLongEdges(std::span<const Float3> positions, std::span<const uint32_t> indices,
-                            float max_length);
+/// positions      finite
+/// indices        three for each triangle, in range
+/// max_length     > 0
+/// max_triangles  of the result
+/// returns        nothing if there would be more
+std::optional<SplitSurface> splitLongEdges(std::span<const Float3> positions,
+                                           std::span<const uint32_t> indices, float max_length,
+                                           size_t max_triangles);
 
 } // namespace hearth::mesh

@@ -103,7 +103,10 @@ TEST(SplitLongEdges, keepsTheSurfaceAndItsClosure)
     };
     for (const float longest : {9.0f, 3.0f, 1.0f, 0.3f})
     {
-        const mesh::SplitSurface split = mesh::splitLongEdges(corners, tetrahedron, longest);
+        const mesh::SplitSurface split = mesh::splitLongEdges(corners, tetrahedron, longest, 10000).value();
+        const size_t count = split.source_triangle.size();
+        EXPECT_TRUE(mesh::splitLongEdges(corners, tetrahedron, longest, count));
+        EXPECT_FALSE(mesh::splitLongEdges(corners, tetrahedron, longest, count - 1));
         EXPECT_THAT(mesh::openEdges(split.indices), IsEmpty());
         std::vector<Float3> sums(4);
         for (size_t t = 0; t < split.source_triangle.size(); ++t)

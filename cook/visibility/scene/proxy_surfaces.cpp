@@ -17,8 +17,9 @@ using namespace formats;
 namespace
 {
 
-// Maximum distance of a mesh from a proxy that it is fitted on, over the diagonal of the mesh's box.
-constexpr float kMaxMeshDistance = 0.05f;
+// Maximum distance between a mesh and a proxy that it is fitted on, both ways, over the diagonal of the
+// mesh's box.
+constexpr float kMaxDistance = 0.05f;
 
 // Minimum cosine between a triangle of a proxy and the triangle of the mesh that gives it normals, where
 // there is such a triangle: 45 degrees, so that a triangle beside a hard edge has no normals from beyond it.
@@ -32,8 +33,8 @@ constexpr float kInset = 0.01f;
 // where visibility changes all the same ...
 constexpr float kMaxEdge = 1.0f / 64;
 
-// ... as long as there are at most this many triangles, over those of the mesh: a fifth of its vertices.
-constexpr double kMaxTriangles = 1.0 / 6;
+// ... as long as the mesh has this many triangles for each: at most a fifth of its vertices.
+constexpr size_t kTrianglesPerSplit = 6;
 
 // Triangles that are looked up in sequence; each search starts at the triangle that the previous one found.
 constexpr size_t kTrianglesPerTask = 128;
@@ -49,19 +50,18 @@ uint32_t chooseLevel(const PackView& part, uint32_t mesh, size_t triangles)
     return level;
 }
 
-/// Split the long edges of a proxy, as long as it has fewer than `max_triangles`.
-/// min_length  of edges that are split
+/// Split the edges of a proxy that are longer than a length, or longer ones alone, so that it has at most so
+/// many triangles; none if it has more already.
 mesh::SplitSurface splitProxy(std::span<const Float3> positions, std::span<const uint32_t> indices,
-                              float min_length, double max_triangles)
+                              float length, size_t max_triangles)
 {
     constexpr float kStep = 1.25f;
-    const auto isTooMany = [&](size_t triangles) { return static_cast<double>(triangles) > max_triangles; };
-    if (isTooMany(indices.size() / 3))
-        min_length = std::numeric_limits<float>::max();
-    for (float length = min_length;; length *= kStep)
-        if (mesh::SplitSurface split = mesh::splitLongEdges(positions, indices, length);
-            split.indices.size() == indices.size() || !isTooMany(split.indices.size() / 3))
-            return split;
+    constexpr int kSteps = 16; // more, and the proxy is of another size than the mesh
+    for (int step = 0; step < kSteps && indices.size() / 3 < max_triangles; ++step, length *= kStep)
+        if (auto split = mesh::splitLongEdges(positions, indices, length, max_triangles))
+            return *std::move(split);
+    return mesh::splitLongEdges(positions, indices, std::numeric_limits<float>::max(), indices.size() / 3)
+        .value();
 }
 
 /// A level of a mesh, to be asked what is near a point.
@@ -120,12 +120,13 @@ std::string_view proxyUseName(ProxyUse use)
 
 const ProxyRecord* findFitProxy(const PackView& proxies, const MeshRecord& mesh, uint32_t number)
 {
-    const float max_distance = kMaxMeshDistance * length(mesh.box_max - mesh.box_min);
+    const float max_distance = kMaxDistance * length(mesh.box_max - mesh.box_min);
     if (!(max_distance > 0))
         return nullptr;
     for (const ProxyRecord& proxy :
          std::ranges::equal_range(proxies.proxies(), number, {}, &ProxyRecord::mesh))
-        if (proxy.indices.count > 0 && proxy.mesh_distance <= max_distance && !hasConvexParts(proxies, proxy))
+        if (proxy.indices.count > 0 && proxy.distance <= max_distance &&
+            proxy.mesh_distance <= max_distance && !hasConvexParts(proxies, proxy))
             return &proxy;
     return nullptr;
 }
@@ -141,7 +142,7 @@ Result<ProxySurface> makeProxySurface(SceneSurfaces& surfaces, const PackView& p
     const std::span<const uint32_t> triangles_of_proxy =
         recordsInRange(proxies.proxyIndices(), proxy.indices);
     const mesh::SplitSurface split = splitProxy(corners_of_proxy, triangles_of_proxy, kMaxEdge * diagonal,
-                                                kMaxTriangles * static_cast<double>(mesh.source_triangles));
+                                                mesh.source_triangles / kTrianglesPerSplit);
     const std::span<const Float3> positions = split.positions;
     const std::span<const uint32_t> indices = split.indices;
     const uint32_t number = chooseLevel(part, proxy.mesh, indices.size() / 3);
@@ -152,7 +153,7 @@ Result<ProxySurface> makeProxySurface(SceneSurfaces& surfaces, const PackView& p
 
     ProxySurface surface;
     LevelArrays& arrays = surface.arrays;
-    arrays.reach = std::max(kMaxMeshDistance * diagonal, 2 * proxy.distance);
+    arrays.reach = std::max(kMaxDistance * diagonal, 2 * proxy.distance);
     arrays.indices.resize(indices.size());
     arrays.positions.resize(indices.size());
     arrays.normals.resize(indices.size());

@@ -27,8 +27,8 @@ enum class ProxyUse
 std::string_view proxyUseName(ProxyUse use);
 
 /// Return the first proxy of a mesh that its visibility can be fitted on, nullptr if there is none. It has no
-/// convex parts, and no point of the mesh is farther from it than a twentieth of the diagonal of the mesh's
-/// box: the inside of a car that is wrapped as a whole cannot see what its wrap sees.
+/// convex parts, and neither of the two has a point that is farther from the other than a twentieth of the
+/// diagonal of the mesh's box: the inside of a car that is wrapped as a whole cannot see what its wrap sees.
 /// proxies  part or pack with the table of proxies
 /// number   of the mesh in it
 const formats::ProxyRecord* findFitProxy(const formats::PackView& proxies, const formats::MeshRecord& mesh,

@@ -52,6 +52,7 @@ struct SquareProxy
     Square square;
     float mesh_distance = 0;
     bool is_convex = false;
+    float distance = 0;
 };
 
 /// A floor below a roof.
@@ -90,6 +91,7 @@ protected:
             const auto count = static_cast<uint32_t>(records.size());
             ProxyRecord& record = records.emplace_back();
             record.mesh = proxy.mesh;
+            record.distance = proxy.distance;
             record.mesh_distance = proxy.mesh_distance;
             record.positions = {4 * count, 4};
             record.indices = {6 * count, 6};
@@ -203,6 +205,12 @@ TEST_F(ProxiesOfMeshes, areLeftOutIfTheyAreConvexOrFarAway)
     const SquareProxy convex{kFloor, floor.square, 0, true}, far{kRoof, roof.square, kSide / 2, false};
     const SquareProxy proxies[] = {convex, far};
     EXPECT_EQ(bake(ProxyUse::all, proxies), (std::vector{ProxyUse::none, ProxyUse::none}));
+    // one that reaches beyond its mesh, by far
+    const SquareProxy large{kFloor, {1e30f, 0, true}, 0, false, 1e30f};
+    EXPECT_EQ(bake(ProxyUse::all, {&large, 1}), (std::vector{ProxyUse::none, ProxyUse::none}));
+    // if it does not say so, it is used, and takes no longer
+    const SquareProxy lying{kFloor, {1e30f, 0, true}};
+    EXPECT_EQ(bake(ProxyUse::fit, {&lying, 1}), (std::vector{ProxyUse::fit, ProxyUse::none}));
     // the second one of a mesh may do
     const SquareProxy two[] = {convex, floor, far};
     EXPECT_EQ(bake(ProxyUse::all, two), (std::vector{ProxyUse::all, ProxyUse::none}));
