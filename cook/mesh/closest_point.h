@@ -37,8 +37,8 @@ public:
     /// min_cosine  in [0, 1)
     Hit find(Float3 point, Float3 normal, double limit2, uint32_t hint, double min_cosine = 0) const;
 
-    /// Find the closest point at any distance, on a triangle that faces `normal` as above; where there is none,
-    /// on one with min_cosine 0, or else on any.
+    /// Find the closest point at any distance, on a triangle that faces `normal` as above; where there is
+    /// none, on one with min_cosine 0, or else on any.
     Hit findAnywhere(Float3 point, Float3 normal, uint32_t hint, double min_cosine) const;
 
     /// Return the squared distance of a point to one of the triangles that are searched.
