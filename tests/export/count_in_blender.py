@@ -1,8 +1,10 @@
 # Opens GLB files in Blender and compares its counts with those of the files: meshes, triangles, lights, cameras,
-# bones, clips, and proxies, by their names below those of their meshes, with their triangles. Run by `blender -b --factory-startup -P count_in_blender.py -- FILE...`; ends with 1 where a file
-# does not open or a count differs.
+# bones, clips, and proxies, by their names below those of their meshes, with their triangles. Run by
+# `blender -b --factory-startup -P count_in_blender.py -- FILE...`; ends with 1 where a file does not open or a count
+# differs.
 # SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 import json
+import re
 import struct
 import sys
 
@@ -76,6 +78,18 @@ def count_polygons(mesh):
     return sum(len(polygon.vertices) - 2 for polygon in mesh.data.polygons)
 
 
+def is_called(name, expected):
+    """Blender adds a number where an object of its own, such as that of a skin, has the name already."""
+    return re.fullmatch(re.escape(expected) + r"(\.\d{3})?", name) is not None
+
+
+def is_same_proxy(item, proxies):
+    if item.parent is None or item.name not in proxies:
+        return False
+    parent, triangles = proxies[item.name]
+    return is_called(item.parent.name, parent) and count_polygons(item) == triangles
+
+
 def count_in_blender(path, proxies):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.ops.import_scene.gltf(filepath=path)
@@ -92,9 +106,7 @@ def count_in_blender(path, proxies):
         "cameras": sum(o.type == "CAMERA" for o in objects),
         "bones": sum(len(a.bones) for a in bpy.data.armatures),
         "clips": len(tracks),
-        "proxies": sum(
-            o.parent is not None and proxies.get(o.name) == (o.parent.name, count_polygons(o)) for o in meshes
-        ),
+        "proxies": sum(is_same_proxy(o, proxies) for o in meshes),
     }
 
 
