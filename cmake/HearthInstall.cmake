@@ -68,17 +68,28 @@ endif()
 
 # find_package(hearth CONFIG)
 set(config_folder ${CMAKE_INSTALL_LIBDIR}/cmake/hearth)
+set(HEARTH_SHADERS_FOLDER ${CMAKE_INSTALL_DATADIR}/hearth/shaders)
 configure_package_config_file(cmake/hearthConfig.cmake.in ${PROJECT_BINARY_DIR}/hearthConfig.cmake
   INSTALL_DESTINATION ${config_folder}
-  PATH_VARS CMAKE_INSTALL_BINDIR
+  PATH_VARS CMAKE_INSTALL_BINDIR HEARTH_SHADERS_FOLDER
   NO_CHECK_REQUIRED_COMPONENTS_MACRO)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/hearthConfigVersion.cmake COMPATIBILITY SameMajorVersion)
 install(EXPORT hearthTargets NAMESPACE hearth:: DESTINATION ${config_folder} COMPONENT development)
 install(FILES
     cmake/HearthAddAssets.cmake
+    cmake/HearthAddMaterialShaders.cmake
+    cmake/HearthCompileShader.cmake
+    cmake/compile_shader.cmake
+    cmake/hash_shader_sources.cmake
     ${PROJECT_BINARY_DIR}/hearthConfig.cmake
     ${PROJECT_BINARY_DIR}/hearthConfigVersion.cmake
   DESTINATION ${config_folder} COMPONENT development)
+
+# sources of shading, which games compile with their material functions
+install(DIRECTORY runtime/shaders DESTINATION ${HEARTH_SHADERS_FOLDER}/runtime COMPONENT development
+  FILES_MATCHING PATTERN "*.glsl" PATTERN "*.vert" PATTERN "*.frag")
+install(DIRECTORY formats/gpu_shared DESTINATION ${HEARTH_SHADERS_FOLDER}/formats COMPONENT development
+  FILES_MATCHING PATTERN "*.h")
 
 # pkg-config: paths relative to the folder of the file itself, so that the installation is relocatable
 file(RELATIVE_PATH prefix_from_pkgconfig /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)

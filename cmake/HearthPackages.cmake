@@ -49,7 +49,8 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libhearth-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS
   "libhearth${abi} (= ${PROJECT_VERSION}), libvulkan-dev, libxxhash-dev, libzstd-dev")
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS hearth) # hearth_add_assets() runs it
+# hearth_add_assets() runs hearth, hearth_add_material_shaders() the others
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "hearth, glslc, spirv-tools")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "Headers, archives and CMake package of Hearth's runtime and of its pack reader")
 
 set(CPACK_DEBIAN_BINDINGS_PACKAGE_NAME hearth-bindings)

@@ -2,7 +2,7 @@
 # Reproducible: no path and no debug information is included. NAME.spv in the build folder still has the names
 # of the source, for tests.
 
-set(HEARTH_SHADER_CACHE "" CACHE PATH "Folder in which builds share compiled shaders; empty: none")
+include(${CMAKE_CURRENT_LIST_DIR}/HearthCompileShader.cmake)
 
 # hearth_shader_library(NAME HEADER ... SHADERS ... [VARIED ... VARIANTS ...]): a static library with the words
 # of the shaders, whose paths are relative to the current folder. HEADER declares a span for each, named after
@@ -10,21 +10,14 @@ set(HEARTH_SHADER_CACHE "" CACHE PATH "Folder in which builds share compiled sha
 # the macro HEARTH_NAME: HEADER declares an array of spans for each, without macro first.
 function(hearth_shader_library name)
   cmake_parse_arguments(ARG "" "HEADER" "SHADERS;VARIED;VARIANTS" ${ARGN})
-  find_package(Vulkan REQUIRED COMPONENTS glslc)
-  find_program(HEARTH_SPIRV_VAL spirv-val REQUIRED)
-  find_program(HEARTH_SPIRV_OPT spirv-opt REQUIRED)
-  set(HEARTH_SHADER_TOOLS "")
-  foreach(tool ${Vulkan_GLSLC_EXECUTABLE} ${HEARTH_SPIRV_VAL} ${HEARTH_SPIRV_OPT})
-    execute_process(COMMAND ${tool} --version OUTPUT_VARIABLE version ERROR_VARIABLE version
-      COMMAND_ERROR_IS_FATAL ANY)
-    string(APPEND HEARTH_SHADER_TOOLS "${version}")
-  endforeach()
-  string(SHA256 HEARTH_SHADER_TOOLS "${HEARTH_SHADER_TOOLS}")
+  hearth_find_shader_tools()
   set(embedded "// Generated.\n#include \"${ARG_HEADER}\"\n\nnamespace hearth::shaders\n{\n")
   set(words_files)
+  set(named "")
   set(listed) # entries "variable,expression,file" of hearth_shader_list
   foreach(shader ${ARG_SHADERS} ${ARG_VARIED})
     set(spans)
+    set(files) # names, as fileName returns them
     set(variants "")
     if(shader IN_LIST ARG_VARIED)
       set(variants ${ARG_VARIANTS})
@@ -33,6 +26,8 @@ function(hearth_shader_library name)
     string(REPLACE "." "_" shader_variable ${file})
     foreach(variant "" ${variants})
       hearth_compile_shader(${shader} "${variant}" variable words)
+      string(REGEX REPLACE "\\.inc$" "" module ${words})
+      list(APPEND files ${module})
       list(APPEND words_files ${words})
       string(APPEND embedded "static constexpr uint32_t ${variable}_words[] = {\n#include \"${words}\"\n};\n")
       list(LENGTH spans number)
@@ -46,10 +41,21 @@ function(hearth_shader_library name)
     if(variants)
       list(JOIN spans ", " spans)
       string(APPEND embedded "const VariedShader ${shader_variable}{${spans}};\n\n")
+      list(TRANSFORM files REPLACE "(.+)" "\"\\1\"")
+      list(JOIN files ", " files)
+      string(APPEND named "        {&${shader_variable}, {${files}}},\n")
     else()
       string(APPEND embedded "const std::span<const uint32_t> ${shader_variable} = ${spans};\n\n")
     endif()
   endforeach()
+  if(ARG_VARIED)
+    string(APPEND embedded "std::string_view fileName(const VariedShader& shader, Variant variant)\n{\n"
+      "    struct NamedShader\n    {\n        const VariedShader* shader;\n"
+      "        std::array<std::string_view, kVariantCount> names;\n    };\n"
+      "    static const NamedShader all[] = {\n${named}    };\n"
+      "    for (const NamedShader& candidate : all)\n        if (candidate.shader == &shader)\n"
+      "            return candidate.names[variant];\n    return {};\n}\n\n")
+  endif()
   string(APPEND embedded "} // namespace hearth::shaders\n")
   file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/embedded.cpp CONTENT "${embedded}" @ONLY)
 
@@ -70,17 +76,8 @@ function(hearth_compile_shader shader variant variable words)
     set(file ${stem}_${variant}${extension})
     string(TOUPPER "-DHEARTH_${variant}" macro)
   endif()
-  set(output ${CMAKE_CURRENT_BINARY_DIR}/${file}.inc)
-  add_custom_command(
-    OUTPUT ${output}
-    COMMAND ${CMAKE_COMMAND} -D SHADER=${CMAKE_CURRENT_SOURCE_DIR}/${shader} -D MACRO=${macro} -D OUTPUT=${output}
-      -D INCLUDE=${PROJECT_SOURCE_DIR} -D GLSLC=${Vulkan_GLSLC_EXECUTABLE} -D SPIRV_VAL=${HEARTH_SPIRV_VAL}
-      -D SPIRV_OPT=${HEARTH_SPIRV_OPT} -D TOOLS=${HEARTH_SHADER_TOOLS} -D CACHE=${HEARTH_SHADER_CACHE}
-      -P ${PROJECT_SOURCE_DIR}/cmake/compile_shader.cmake
-    DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${shader} ${PROJECT_SOURCE_DIR}/cmake/compile_shader.cmake
-    DEPFILE ${output}.d
-    COMMENT "Compiling ${file}"
-    VERBATIM)
+  hearth_shader_command(${CMAKE_CURRENT_BINARY_DIR}/${file}.inc ${CMAKE_CURRENT_SOURCE_DIR}/${shader}
+    MACROS ${macro} INCLUDES ${PROJECT_SOURCE_DIR})
   string(REPLACE "." "_" name ${file})
   set(${variable} ${name} PARENT_SCOPE)
   set(${words} ${file}.inc PARENT_SCOPE)

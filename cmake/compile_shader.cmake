@@ -1,10 +1,13 @@
-# Script of hearth_shader_library: compiles SHADER, with MACRO unless that is empty, to OUTPUT.spv, checks it,
+# Script of hearth_shader_command: compiles SHADER, with MACROS (-DNAME), to OUTPUT.spv, checks it,
 # and writes its words without names as C++ numbers into OUTPUT. With a folder CACHE, text that any build has
 # compiled before is not compiled again: an optimised shader takes seconds, its text a quarter of one.
 #   GLSLC SPIRV_VAL SPIRV_OPT  programs; TOOLS  their versions
-#   INCLUDE                    folder of include paths
+#   INCLUDES                   folders of include paths
 
-set(compile ${GLSLC} -Werror -g --target-env=vulkan1.1 -I ${INCLUDE} ${MACRO})
+set(compile ${GLSLC} -Werror -g --target-env=vulkan1.1 ${MACROS})
+foreach(folder IN LISTS INCLUDES)
+  list(APPEND compile -I ${folder})
+endforeach()
 
 function(run)
   execute_process(COMMAND ${ARGN} RESULT_VARIABLE status)
@@ -24,7 +27,7 @@ set(text ${OUTPUT}.text)
 run(${compile} -E -MD -MF ${OUTPUT}.d -MT ${OUTPUT} ${SHADER} -o ${text})
 file(SHA256 ${text} key)
 file(SHA256 ${CMAKE_CURRENT_LIST_FILE} script)
-string(SHA256 key "${key} ${script} ${MACRO} ${TOOLS}")
+string(SHA256 key "${key} ${script} ${MACROS} ${TOOLS}")
 file(REMOVE ${text})
 set(kept ${CACHE}/${key})
 if(CACHE AND EXISTS ${kept}.spv AND EXISTS ${kept}.inc)

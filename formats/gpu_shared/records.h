@@ -210,6 +210,7 @@ struct FrameView
     float corner_cosine; ///< of the angle between the view's axis and a corner of the image, or less
     uint reserved;
     Float4 lod_curve[8]; ///< from distance x on the factor goes from y to z, with slope w per metre
+    Float4 material_inputs; ///< of the game, for its material functions
 };
 
 /// View that a depth pyramid was rendered from (occlusion.h).

@@ -31,6 +31,9 @@ HEARTH_FUNCTION uint uvSet(uint sets, uint slot)
     return sets >> (2u * slot) & 3u;
 }
 
+/// Vectors of four parameters that a material has for its function.
+HEARTH_CONSTANT uint kMaterialParameters = 4;
+
 /// formats::MaterialRecord in the layout of a uniform block.
 struct Material
 {
@@ -47,6 +50,7 @@ struct Material
     uint uv_sets;    ///< two bits each: uvSet()
     /// Two rows for each texture but those of layers; uv = (row0 . (u, v, 1), row1 . (u, v, 1)).
     Float4 uv_rows[10];
+    Float4 parameters[kMaterialParameters]; ///< of its material function
 };
 
 /// Bits of the layers that a material has: formats::hasSpecular(), hasClearcoat() and hasSheen().
@@ -158,7 +162,7 @@ HEARTH_SHARED_END
 
 #ifdef __cplusplus
 // sizes in std140 layout
-static_assert(sizeof(hearth::shared::Material) == 224);
+static_assert(sizeof(hearth::shared::Material) == 224 + 16 * hearth::shared::kMaterialParameters);
 static_assert(sizeof(hearth::shared::MaterialLayers) == 176);
 static_assert(sizeof(hearth::shared::Light) == 96);
 static_assert(sizeof(hearth::shared::Lighting) == 112 + 112 + 64 * (hearth::shared::kLightCascades + 1));

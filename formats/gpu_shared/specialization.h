@@ -26,7 +26,9 @@ HEARTH_CONSTANT uint kConstantStored = 10;
 HEARTH_CONSTANT uint kConstantReflects = 11;  ///< 1: what surrounds lamps gives light back (reflector.h)
 HEARTH_CONSTANT uint kConstantReceivers = 12; ///< 1: the scene has receivers (receivers/receiver_rows.h)
 HEARTH_CONSTANT uint kConstantLocalProbes = 13; ///< 1: the scene has local probes (local_probes.h)
-HEARTH_CONSTANT uint kConstantCount = 14;
+/// Number of the material's function among those of the game, from 1; 0: none.
+HEARTH_CONSTANT uint kConstantMaterialFunction = 14;
+HEARTH_CONSTANT uint kConstantCount = 15;
 
 /// Lights that a pixel evaluates, beside those that every point gets.
 HEARTH_CONSTANT uint kLightListFrame = 0; ///< all of the frame

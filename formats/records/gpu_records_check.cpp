@@ -50,7 +50,7 @@ static_assert(hearth::shared::kNoGroup == hearth::kInvalidIndex);
 static_assert(sizeof(hearth::shared::MeshBounds) == 32);
 static_assert(sizeof(hearth::shared::InstanceInverse) == 48);
 static_assert(sizeof(hearth::shared::InstanceState) == 32);
-static_assert(sizeof(hearth::shared::FrameView) == 304);
+static_assert(sizeof(hearth::shared::FrameView) == 320);
 static_assert(sizeof(hearth::shared::BinDraw) == 32);
 static_assert(sizeof(hearth::shared::WorkItem) == 16);
 static_assert(sizeof(hearth::shared::GroupItem) == 12);

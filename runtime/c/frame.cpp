@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 using namespace hearth;
 using namespace hearth::c;
@@ -67,6 +68,9 @@ Status check(const hearth_renderer& renderer, const hearth_frame& frame)
         return usage("shadow_spheres is NULL");
     if (frame.occlusion > HEARTH_OCCLUSION_OFF)
         return usage("occlusion has a value that this version does not know");
+    if (!std::all_of(std::begin(frame.material_inputs), std::end(frame.material_inputs),
+                     [](float input) { return std::isfinite(input); }))
+        return usage("material_inputs are not all finite");
     if (frame.constant_sky > 1)
         return usage("constant_sky is neither 0 nor 1");
     if (frame.light_lists > HEARTH_LIGHT_LISTS_CPU)
@@ -191,6 +195,8 @@ Result<shared::FrameView> makeView(const hearth_scene& scene, const gpu::FrameTa
         shared::makeFrameView(toCamera(frame), targets.extent().width, targets.extent().height,
                               frame.error_pixels, scene.scene->instance_count, frame.cull_flags & ~off);
     HEARTH_TRY(setCurve(view, frame));
+    const float* inputs = frame.material_inputs;
+    view.material_inputs = {inputs[0], inputs[1], inputs[2], inputs[3]};
     return view;
 }
 

@@ -55,7 +55,8 @@ struct hearth_queries
 
 struct hearth_renderer
 {
-    hearth_memory_hooks memory{}; ///< the renderer below refers to them
+    hearth_memory_hooks memory{}; ///< the renderer below refers to them, and to the next one
+    hearth::gpu::MaterialShaders material_shaders;
     std::unique_ptr<hearth::gpu::Renderer> renderer;
     bool shows_overdraw = false;
     uint32_t scene_count = 0;

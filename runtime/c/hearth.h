@@ -189,6 +189,31 @@ enum
     HEARTH_FRAME_ONE_SET = 3 /* as MERGED, with one descriptor set for all that shading binds */
 };
 
+/* Material function of the game (1.8). */
+typedef struct hearth_material_function
+{
+    const char* name;
+} hearth_material_function;
+
+/* Shader of the renderer with the game's material functions in it (1.8). */
+typedef struct hearth_material_module
+{
+    const char* name;
+    const uint32_t* words; /* SPIR-V */
+    size_t word_count;
+} hearth_material_module;
+
+/* Material functions of the game (1.8), as hearth_add_material_shaders() in CMake compiles them; README.md has an
+ * example. A material has the function that its extra "hearth_material" names. */
+typedef struct hearth_material_shaders
+{
+    uint32_t function_count;
+    uint32_t module_count;
+    const hearth_material_function* functions;
+    const hearth_material_module* modules;
+    const char* version; /* of the shaders' sources: that of the library */
+} hearth_material_shaders;
+
 typedef struct hearth_renderer_description
 {
     uint32_t struct_size;
@@ -208,13 +233,14 @@ typedef struct hearth_renderer_description
     /* since 1.8 */
     uint32_t frame_way; /* HEARTH_FRAME_* */
     uint32_t reserved;  /* 0 */
+    const hearth_material_shaders* material_shaders; /* outlive the renderer; or NULL */
 } hearth_renderer_description;
 
 #define HEARTH_RENDERER_DESCRIPTION_INIT                                                                     \
     {                                                                                                        \
         sizeof(hearth_renderer_description), HEARTH_API_VERSION, NULL, VK_NULL_HANDLE, VK_NULL_HANDLE,       \
             VK_NULL_HANDLE, NULL, VK_NULL_HANDLE, 0, HEARTH_MATERIALS_DEPTH, {NULL, NULL, NULL}, NULL, NULL, \
-            HEARTH_FRAME_AUTOMATIC, 0                                                                        \
+            HEARTH_FRAME_AUTOMATIC, 0, NULL                                                                  \
     }
 
 /* Create pipelines, which takes seconds on some devices. The objects in the description outlive the renderer.
@@ -834,6 +860,7 @@ typedef struct hearth_frame
      * image, from its middle, in halves of its width to the right and of its height upwards; -1024 to 1024.
      * Moved by p pixels: 2 * p / width. */
     float shift[2];
+    float material_inputs[4]; /* for the material functions of the game: a time, a wind; finite */
 } hearth_frame;
 
 #define HEARTH_FRAME_INIT                                                                                    \
@@ -842,7 +869,7 @@ typedef struct hearth_frame
             NULL, 0, 0, NULL, HEARTH_VIEW_FINAL, 1, HEARTH_SHADE_AUTOMATIC, 0, NULL, VK_NULL_HANDLE, NULL,   \
             0, HEARTH_AMBIENT_OCCLUSION_EXACT, HEARTH_SPECULAR_OCCLUSION_FIT, 0, NULL, NULL, 0, 0, 0, 0, 0,  \
             0.18f, 1, 0, {1, 1, 1}, 0, 0, HEARTH_BLOOM_MIX, HEARTH_LIGHTS_PRACTICAL, HEARTH_LIGHT_LISTS_GPU, \
-            NULL, 0, 0, NULL, {0, 0}                                                                         \
+            NULL, 0, 0, NULL, {0, 0}, {0, 0, 0, 0}                                                           \
     }
 
 /* ---- Tables of a pack (1.6), on any thread ----

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <iterator>
 #include <optional>
+#include <span>
 
 using namespace hearth;
 using namespace hearth::c;
@@ -111,6 +112,19 @@ std::optional<gpu::FrameWay> toFrameWay(uint32_t way)
     }
 }
 
+/// Copy the tables of the game's material functions.
+Result<gpu::MaterialShaders> toMaterialShaders(const hearth_material_shaders& shaders)
+{
+    if (shaders.functions == nullptr || shaders.modules == nullptr || shaders.version == nullptr)
+        return usage("material_shaders has no functions, no modules or no version");
+    gpu::MaterialShaders made{.version = shaders.version};
+    for (const hearth_material_function& function : std::span(shaders.functions, shaders.function_count))
+        made.functions.push_back(function.name);
+    for (const hearth_material_module& module : std::span(shaders.modules, shaders.module_count))
+        made.modules.push_back({module.name, {module.words, module.word_count}});
+    return made;
+}
+
 gpu::PostSupport toPostSupport(uint32_t features)
 {
     if ((features & HEARTH_FEATURE_FINAL_PASS) != 0)
@@ -122,6 +136,10 @@ Result<std::unique_ptr<hearth_renderer>> create(const hearth_renderer_descriptio
 {
     auto made = std::make_unique<hearth_renderer>();
     made->memory = description.memory;
+    if (description.material_shaders != nullptr)
+    {
+        HEARTH_ASSIGN_OR_RETURN(made->material_shaders, toMaterialShaders(*description.material_shaders));
+    }
     HEARTH_ASSIGN_OR_RETURN(
         made->renderer,
         gpu::Renderer::create(toDevice(description, made->memory),
@@ -132,7 +150,10 @@ Result<std::unique_ptr<hearth_renderer>> create(const hearth_renderer_descriptio
                                .keeps_depth = (description.features & HEARTH_FEATURE_DEPTH) != 0,
                                .receiver_update = (description.features & HEARTH_FEATURE_RECEIVER_POINTS) != 0
                                                       ? gpu::ReceiverUpdate::points
-                                                      : gpu::ReceiverUpdate::compute}));
+                                                      : gpu::ReceiverUpdate::compute,
+                               .material_shaders = description.material_shaders != nullptr
+                                                       ? &made->material_shaders
+                                                       : nullptr}));
     made->shows_overdraw = (description.features & HEARTH_FEATURE_OVERDRAW) != 0;
     if (made->shows_overdraw)
         HEARTH_TRY(made->renderer->prepareOverdraw());

@@ -124,6 +124,9 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const DeviceDescription& desc
     const MaterialTest materials =
         options.deferred || options.keeps_depth ? MaterialTest::id : options.materials;
     r.receiver_update_ = options.receiver_update;
+    r.material_shaders_ = options.material_shaders;
+    if (r.material_shaders_ != nullptr)
+        HEARTH_TRY(checkMaterialShaders(*r.material_shaders_));
     r.post_support_ = options.deferred ? PostSupport::half : options.post;
     if (materials == MaterialTest::id)
         formats.push_back(kStencilFormat);
@@ -165,8 +168,8 @@ Result<Renderer::DrawPasses> Renderer::createDrawPasses(ShadedOutput output) con
         BinPass::createVisibility(device_, layouts_, passes_.place(output, FrameStep::visibility)));
     HEARTH_ASSIGN_OR_RETURN(draws.material_marks, MaterialMarksPass::create(device_, layouts_, passes_,
                                                                             output, FrameStep::shading));
-    HEARTH_ASSIGN_OR_RETURN(draws.shading,
-                            ShadingPass::create(device_, layouts_, passes_, output, storedColor(output)));
+    HEARTH_ASSIGN_OR_RETURN(draws.shading, ShadingPass::create(device_, layouts_, passes_, output,
+                                                               storedColor(output), material_shaders_));
     const LightPath path = lightPath(output);
     if (sumsLights(path))
     {
@@ -246,8 +249,11 @@ const FramePlan& Renderer::plan(const Scene& scene, const FrameTargets& targets,
 Result<std::unique_ptr<Scene>> Renderer::upload(const formats::PackView& pack, VkCommandBuffer commands,
                                                 const SceneOptions& options)
 {
+    SceneOptions own = options;
+    if (material_shaders_ != nullptr)
+        own.material_functions = material_shaders_->functions;
     HEARTH_ASSIGN_OR_RETURN(std::unique_ptr<Scene> scene,
-                            uploadScene(device_, layouts_, pack, commands, options));
+                            uploadScene(device_, layouts_, pack, commands, own));
     if (scene->deformation != nullptr)
     {
         HEARTH_TRY(prepareDeformed());

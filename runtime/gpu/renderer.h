@@ -8,6 +8,7 @@
 #include "runtime/gpu/light_passes/add_lights_pass.h"
 #include "runtime/gpu/light_passes/light_lists_pass.h"
 #include "runtime/gpu/light_passes/mark_lights_pass.h"
+#include "runtime/gpu/materials/material_shaders.h"
 #include "runtime/gpu/passes/bin_pass.h"
 #include "runtime/gpu/passes/brick_light_pass.h"
 #include "runtime/gpu/passes/cull_pass.h"
@@ -102,6 +103,8 @@ struct RendererOptions
     /// then.
     bool keeps_depth = false;
     ReceiverUpdate receiver_update = ReceiverUpdate::compute;
+    /// Functions of the game; or null: materials are as the pack has them.
+    const MaterialShaders* material_shaders = nullptr;
 };
 
 class Renderer
@@ -246,6 +249,7 @@ private:
     std::optional<BrickLightPass> brick_light_; ///< set once a scene has bricks
     std::optional<GatherPass> gather_;          ///< set once a scene has bricks
     ReceiverUpdate receiver_update_ = ReceiverUpdate::compute;
+    const MaterialShaders* material_shaders_ = nullptr;
     std::optional<ReceiverPass> receivers_; ///< set once a scene has receivers
     std::optional<SkinningPass> skinning_;  ///< set once a scene has deformed meshes
     MaterialTilesPass material_tiles_;

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 namespace hearth::shaders
 {
@@ -17,6 +18,9 @@ enum Variant : uint32_t
     kVariantCount,
 };
 using VariedShader = std::array<std::span<const uint32_t>, kVariantCount>;
+
+/// Return the name of a shader's file, with its variant: "sky.frag", "sky_sampled.frag".
+std::string_view fileName(const VariedShader& shader, Variant variant);
 
 extern const std::span<const uint32_t> cull_instances_comp;
 extern const std::span<const uint32_t> cull_clusters_comp;

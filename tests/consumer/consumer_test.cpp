@@ -112,6 +112,9 @@ TEST_F(Consumer, drawsWhatItsBuildHasCooked)
     EXPECT_GT(right[1], 2 * right[0]);
     EXPECT_NE(image->at(0.02, 0.02), left);
     EXPECT_NE(image->at(0.02, 0.02), right);
+    // the game's material function paints the edge blue
+    const std::array<int, 3> edge = image->at(0.5, 0.14);
+    EXPECT_GT(edge[2], 2 * std::max(edge[0], edge[1]));
     EXPECT_EQ(drawn("game_static")->texels, image->texels);
 
     paintTexture();
@@ -161,6 +164,8 @@ TEST_F(Consumer, saysWhatItsCallsLack)
     for (const char* call : {"hearth_add_assets(a)", "hearth_add_assets(a SOURCES a.glb OUTPUT)",
                              "hearth_add_assets(a b.glb SOURCES a.glb)"})
         EXPECT_NE(configured(find + call).err.find("needs SOURCES FILE"), std::string::npos) << call;
+    for (const char* call : {"hearth_add_material_shaders(a)", "hearth_add_material_shaders(a FUNCTIONS)"})
+        EXPECT_NE(configured(find + call).err.find("needs FUNCTIONS FILE"), std::string::npos) << call;
     EXPECT_NE(configured(find + "hearth_add_assets(a SOURCES a.glb)\n", "-DHEARTH_PROGRAM=")
                   .err.find("HEARTH_PROGRAM=PATH"),
               std::string::npos);

@@ -76,6 +76,17 @@ const shaders::VariedShader& ShadingPass::materialShader(bool shadowed, bool gi)
     return gi ? (shadowed ? *own.shadowed_gi : *own.gi) : (shadowed ? *own.shadowed : *own.plain);
 }
 
+/// Return the words of a shader that reads materials: with the game's functions where the material has one.
+Result<std::span<const uint32_t>> ShadingPass::findWords(const shaders::VariedShader& shader,
+                                                         const ShadingVariant& variant) const
+{
+    const shaders::Variant reading = shaderVariant(way_);
+    if (variant.function == 0)
+        return shader[reading];
+    HEARTH_ASSERT(functions_ != nullptr);
+    return findModule(*functions_, shaders::fileName(shader, reading));
+}
+
 /// Describe a pipeline that shades the pixels of one material.
 GraphicsDescription ShadingPass::describe(std::span<const uint32_t> fragment, VkPipelineLayout layout) const
 {
@@ -123,6 +134,7 @@ DrawConstants ShadingPass::drawConstants(const ShadingVariant& variant, bool res
     constants[shared::kConstantLocalProbes] = variant.local_probes;
     constants[shared::kConstantLightList] = variant.light_list;
     constants[shared::kConstantReceivers] = variant.receivers;
+    constants[shared::kConstantMaterialFunction] = variant.function;
     return constants;
 }
 
@@ -135,9 +147,11 @@ void ShadingPass::setStencil(const Device& device, VkCommandBuffer commands, uin
 }
 
 Result<ShadingPass> ShadingPass::create(const Device& device, const DrawLayouts& layouts,
-                                        const FramePasses& passes, ShadedOutput output, uint32_t stored)
+                                        const FramePasses& passes, ShadedOutput output, uint32_t stored,
+                                        const MaterialShaders* functions)
 {
     ShadingPass pass;
+    pass.functions_ = functions;
     pass.output_ = output;
     pass.place_ = passes.place(output, FrameStep::shading);
     pass.way_ = passes.way();
@@ -181,7 +195,6 @@ Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLa
                                               const ShadingVariant& variant)
 {
     const bool has_views = lightPath(output_) == LightPath::materials;
-    const shaders::Variant reading = shaderVariant(way_);
     if (has_views)
         HEARTH_TRY(prepareViews(device, layouts, variant));
     const auto [entry, fresh] = variants_.try_emplace(variant);
@@ -190,21 +203,22 @@ Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLa
     if (fresh)
     {
         const DrawConstants constants = drawConstants(variant, false);
-        GraphicsDescription description =
-            describe(materialShader(shadowed, false)[reading], layouts.shading.get());
+        HEARTH_ASSIGN_OR_RETURN(const std::span<const uint32_t> own,
+                                findWords(materialShader(shadowed, false), variant));
+        GraphicsDescription description = describe(own, layouts.shading.get());
         description.constants = constants;
         HEARTH_ASSIGN_OR_RETURN(pipelines.final_pipeline, createGraphicsPipeline(device, description));
         if (variant.bricks != 0)
         {
-            description.fragment = materialShader(shadowed, true)[reading];
+            HEARTH_ASSIGN_OR_RETURN(description.fragment, findWords(materialShader(shadowed, true), variant));
             HEARTH_ASSIGN_OR_RETURN(pipelines.final_gi_pipeline, createGraphicsPipeline(device, description));
         }
         // layers fit into no sums: they are lit where they are shaded
         if (sumsLights(lightPath(output_)) && variant.unlit == 0 && variant.layers == 0)
-            HEARTH_TRY(createNormals(device, layouts, constants, pipelines.normals_pipeline));
-        description.fragment = shaders::view_surface_frag[reading];
+            HEARTH_TRY(createNormals(device, layouts, variant, pipelines.normals_pipeline));
         if (has_views)
         {
+            HEARTH_ASSIGN_OR_RETURN(description.fragment, findWords(shaders::view_surface_frag, variant));
             HEARTH_ASSIGN_OR_RETURN(pipelines.debug_view_pipeline,
                                     createGraphicsPipeline(device, description));
         }
@@ -215,13 +229,15 @@ Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLa
 
 /// Create the pipeline that stores what lights need of a material's surfaces, ahead of shading.
 Status ShadingPass::createNormals(const Device& device, const DrawLayouts& layouts,
-                                  const DrawConstants& constants, UniquePipeline& pipeline) const
+                                  const ShadingVariant& variant, UniquePipeline& pipeline) const
 {
     const LightPath path = lightPath(output_);
     const shaders::VariedShader& shader = path == LightPath::light_sums   ? shaders::normals_frag
                                           : path == LightPath::joint_sums ? shaders::joint_normals_frag
                                                                           : shaders::encoded_normals_frag;
-    GraphicsDescription description = describe(shader[shaderVariant(way_)], layouts.shading.get());
+    const DrawConstants constants = drawConstants(variant, false);
+    HEARTH_ASSIGN_OR_RETURN(const std::span<const uint32_t> words, findWords(shader, variant));
+    GraphicsDescription description = describe(words, layouts.shading.get());
     description.render_pass = normals_place_.render_pass;
     description.subpass = normals_place_.subpass;
     description.constants = constants;

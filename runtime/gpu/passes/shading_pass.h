@@ -5,6 +5,7 @@
 
 #include "formats/gpu_shared/ambient_occlusion.h"
 #include "formats/gpu_shared/shading.h"
+#include "runtime/gpu/materials/material_shaders.h"
 #include "runtime/gpu/passes/frame_targets.h"
 #include "runtime/gpu/post/post_settings.h"
 #include "runtime/gpu/scene/scene.h"
@@ -89,9 +90,11 @@ inline bool usesGi(const Scene& scene, const ShadingSettings& view)
 class ShadingPass
 {
 public:
-    /// stored  value of shared::kConstantStored
+    /// stored     value of shared::kConstantStored
+    /// functions  of the game, outlive the pass; or null
     static Result<ShadingPass> create(const Device& device, const DrawLayouts& layouts,
-                                      const FramePasses& passes, ShadedOutput output, uint32_t stored);
+                                      const FramePasses& passes, ShadedOutput output, uint32_t stored,
+                                      const MaterialShaders* functions);
 
     /// Return the pipelines of a material; creates each variant once and caches it. Call before frames are
     /// recorded. Frames that light stored surfaces show no debug views, and have no pipelines for them.
@@ -132,16 +135,19 @@ private:
     void recordMaterials(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
                          const Scene& scene, const FrameTargets& targets, const ShadingSettings& view,
                          MaterialPipeline pipeline) const;
-    Status createNormals(const Device& device, const DrawLayouts& layouts, const DrawConstants& constants,
+    Status createNormals(const Device& device, const DrawLayouts& layouts, const ShadingVariant& variant,
                          UniquePipeline& pipeline) const;
 
     const shaders::VariedShader& materialShader(bool shadowed, bool gi) const;
+    Result<std::span<const uint32_t>> findWords(const shaders::VariedShader& shader,
+                                                const ShadingVariant& variant) const;
     GraphicsDescription describe(std::span<const uint32_t> fragment, VkPipelineLayout layout) const;
     GraphicsDescription describeSurfaceView(std::span<const uint32_t> fragment,
                                             VkPipelineLayout layout) const;
     DrawConstants drawConstants(const ShadingVariant& variant, bool resolves_only) const;
     void setStencil(const Device& device, VkCommandBuffer commands, uint32_t material) const;
 
+    const MaterialShaders* functions_ = nullptr;
     DrawPlace place_{};
     DrawPlace normals_place_{}; ///< of outputs that sum lights
     FrameWay way_ = FrameWay::merged;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/materials/material_shaders.h"
 #include "runtime/gpu/scene/scene.h"
 #include "runtime/gpu/scene/scene_shading.h"
 #include "runtime/gpu/textures/streamed_textures.h"
@@ -6,6 +7,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
 #include <map>
 #include <string>
 #include <tuple>
@@ -129,7 +131,7 @@ void writeMaterialTextures(const Device& device, const Scene& scene, size_t row,
 }
 
 Status uploadMaterials(const Device& device, const DrawLayouts& layouts, const formats::PackView& pack,
-                       Uploader& uploader, Scene& scene)
+                       std::span<const std::string_view> functions, Uploader& uploader, Scene& scene)
 {
     const std::vector<LayeredMaterial> materials = readMaterials(pack);
 
@@ -157,14 +159,21 @@ Status uploadMaterials(const Device& device, const DrawLayouts& layouts, const f
     SamplerCache samplers(device, scene.samplers);
     for (size_t row = 0; row < materials.size(); ++row)
     {
-        const shared::Material material = makeMaterial(materials[row]);
+        shared::Material material = makeMaterial(materials[row]);
+        MaterialBinding binding;
+        if (row < pack.materials().size()) // the last one is the default material
+        {
+            HEARTH_ASSIGN_OR_RETURN(binding, bindMaterial(pack, static_cast<uint32_t>(row), functions));
+        }
+        std::copy(binding.parameters.begin(), binding.parameters.end(), std::begin(material.parameters));
         std::memcpy(mapped.data() + row * stride, &material, sizeof(material));
         SceneMaterial entry;
         entry.variant = {.used_slices = scene.used_slices,
                          .textures = material.textures,
                          .uv_sets = material.uv_sets,
                          .unlit = (material.flags & formats::kMaterialUnlit) != 0 ? 1u : 0u,
-                         .layers = layerBits(materials[row].layers)};
+                         .layers = layerBits(materials[row].layers),
+                         .function = binding.function};
         BlockOffsets offsets{row * stride, neutral};
         if (entry.variant.layers != 0)
         {

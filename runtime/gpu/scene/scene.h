@@ -57,6 +57,9 @@ struct SceneOptions
 
     /// Textures of compressed formats that the device cannot sample are decoded; else they are an error.
     bool decode_textures = false;
+
+    /// MaterialShaders::functions, set by the renderer.
+    std::span<const std::string_view> material_functions{};
 };
 
 class SceneShadows;
@@ -99,6 +102,7 @@ struct ShadingVariant
     uint32_t bricks = 0;          ///< 1: the scene has bricks
     uint32_t receivers = 0;       ///< 1: the scene has receivers
     uint32_t local_probes = 0;    ///< 1: the scene has local probes
+    uint32_t function = 0;        ///< MaterialBinding::function
     uint32_t light_list = shared::kLightListCells;
     friend auto operator<=>(const ShadingVariant&, const ShadingVariant&) = default;
 };
@@ -232,9 +236,9 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
                                            const SceneOptions& options);
 
 /// Upload the images of the materials, and allocate one descriptor set per row of the material table. Needs
-/// scene.pool and scene.used_slices.
+/// scene.pool and scene.used_slices. Materials that name one of `functions` get it.
 Status uploadMaterials(const Device& device, const DrawLayouts& layouts, const formats::PackView& pack,
-                       Uploader& uploader, Scene& scene);
+                       std::span<const std::string_view> functions, Uploader& uploader, Scene& scene);
 
 /// Write the textures of a material into a set of it.
 void writeMaterialTextures(const Device& device, const Scene& scene, size_t row, VkDescriptorSet set);

@@ -514,7 +514,7 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
     HEARTH_TRY(uploadTables(pack, layout, *scene->staging, *scene));
     HEARTH_TRY(scene->staging->uploadRecords(scene->buffers.group_items, group_items.items));
     HEARTH_TRY(uploadGeometry(pack, layout, *scene->staging, *scene));
-    HEARTH_TRY(uploadMaterials(device, layouts, pack, *scene->staging, *scene));
+    HEARTH_TRY(uploadMaterials(device, layouts, pack, options.material_functions, *scene->staging, *scene));
     findSkyVisibility(pack, *scene);
     findLocalProbes(pack, *scene);
     fillSpareBindings(device, *scene);

@@ -10,6 +10,7 @@
 #include "runtime/shaders/scene/resolve.glsl"
 #include "runtime/shaders/scene/visibility_input.glsl"
 #include "runtime/shaders/scene/material_test.glsl"
+#include "runtime/shaders/shade/material_values.glsl"
 #include "runtime/shaders/prepass/normal_texel.glsl"
 #include "runtime/shaders/scene/light_block.glsl"
 #include "runtime/shaders/scene/receivers.glsl"
@@ -25,9 +26,8 @@ void main()
     Surface s = resolveSurface(id, gl_FragCoord.xy);
     SurfacePoint point = surfacePoint(s);
     SurfaceUvs uvs = surfaceUvs(s);
-    vec4 metallic_roughness = sampleSurface(uvs, kTextureMetallicRoughness, metallic_roughness_texture);
-    StoredNormal stored = StoredNormal(shadingNormal(point, uvs), point.flat_normal,
-                                       surfaceRoughness(metallic_roughness), point.error,
+    MaterialValues values = materialValues(point, uvs, material.base_color.rgb * point.color);
+    StoredNormal stored = StoredNormal(values.normal, point.flat_normal, values.roughness, point.error,
                                        kReceivers && isReceiver(receiverRow(s.slot.instance), s));
     out_normal = packNormal(stored, dot(view.clip_w.xyz, point.position));
 }

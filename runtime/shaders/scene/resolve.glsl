@@ -233,7 +233,14 @@ SurfacePoint surfacePoint(Surface s)
     point.error = surfaceError(s);
     point.tangent = point.bitangent = vec3(0.0);
     uint normal_map = hasTexture(kTextureNormal) ? kTextureNormal : kTextureClearcoatNormal;
-    if (hasTexture(normal_map))
+#ifdef HEARTH_MATERIAL_FUNCTIONS
+    bool has_frame = true;
+    point.position_dx = s.corners[0] * s.weights_dx.x + s.corners[1] * s.weights_dx.y + s.corners[2] * s.weights_dx.z;
+    point.position_dy = s.corners[0] * s.weights_dy.x + s.corners[1] * s.weights_dy.y + s.corners[2] * s.weights_dy.z;
+#else
+    bool has_frame = hasTexture(normal_map);
+#endif
+    if (has_frame)
         tangentFrame(s, point.normal, textureUvSet(normal_map), point.tangent, point.bitangent);
     point.color = surfaceColor(s);
     point.front = s.front;

@@ -24,7 +24,7 @@ struct SurfacePoint
     vec3 normal;    // unit, world axes, on the front side; before normal mapping
     vec3 flat_normal; // unit, world axes, of the triangle, towards the visible side
     float error;    // metres, bounds the distance of the triangle to the source
-    vec3 tangent;   // unit, world axes; only where the material or its clear coat has a normal map
+    vec3 tangent;   // unit, world axes; where the material or its clear coat has a normal map, or a function
     vec3 bitangent;
     mediump vec3 color; // vertex colour
     bool front;     // the front side is visible
@@ -32,6 +32,10 @@ struct SurfacePoint
     uint instance;
     uint slot; // of the visible list
     ReceivedLight received;
+#ifdef HEARTH_MATERIAL_FUNCTIONS
+    vec3 position_dx; // per pixel
+    vec3 position_dy;
+#endif
 };
 
 struct SurfaceUv
@@ -57,7 +61,11 @@ uint textureUvSet(uint slot) { return uvSet(kUvSets, slot); }
 // True if a texture of the material uses a UV set: a constant of each pipeline.
 bool usesUvSet(uint set)
 {
+#ifdef HEARTH_MATERIAL_FUNCTIONS
+    bool uses = set == 0u; // material functions may read it
+#else
     bool uses = false;
+#endif
     for (uint slot = 0u; slot < kTextureCount; ++slot)
         uses = uses || (hasTexture(slot) && textureUvSet(slot) == set);
     return uses;

@@ -11,6 +11,7 @@
 #include "runtime/shaders/shade/layers.glsl"
 #include "runtime/shaders/shade/light_irradiance.glsl"
 #include "runtime/shaders/shade/light_list.glsl"
+#include "runtime/shaders/shade/material_values.glsl"
 #ifdef HEARTH_STORES_SURFACES
 #include "runtime/shaders/shade/surface_words.glsl"
 #endif
@@ -74,27 +75,23 @@ vec3 directLight(SurfacePoint point, Shading shading, Layers layers)
     return radiance;
 }
 
-vec3 lit(SurfacePoint point, SurfaceUvs uvs, mediump vec3 base)
+vec3 lit(SurfacePoint point, SurfaceUvs uvs, MaterialValues values)
 {
-    vec3 normal = shadingNormal(point, uvs);
-    vec4 metallic_roughness = sampleSurface(uvs, kTextureMetallicRoughness, metallic_roughness_texture);
-    mediump float metallic_factor = material.metallic;
-    mediump float metallic = clamp(metallic_factor * metallic_roughness.b, 0.0, 1.0);
     Shading shading;
-    shading.roughness = surfaceRoughness(metallic_roughness);
-    shading.normal = normal;
-    shading.to_eye = normalizeOr(-point.position, normal);
-    shading.n_dot_v = clampedCosine(normal, shading.to_eye);
+    shading.roughness = values.roughness;
+    shading.normal = values.normal;
+    shading.to_eye = normalizeOr(-point.position, values.normal);
+    shading.n_dot_v = clampedCosine(values.normal, shading.to_eye);
     shading.lobe = lobeTotal(shading.roughness, shading.n_dot_v);
-    shading.albedo = surfaceAlbedo(base, metallic, surfaceDielectric(uvs), shading.lobe);
+    shading.albedo = surfaceAlbedo(values.base_color, values.metallic, surfaceDielectric(uvs), shading.lobe);
     Layers layers = surfaceLayers(point, uvs, shading);
 
     vec3 radiance = vec3(0.0);
     // layers fit neither into what is stored nor into sums
 #ifdef HEARTH_STORES_SURFACES
     if (kLayers == 0u)
-        out_surface = packSurface(LitSurface(normal, point.flat_normal, base, metallic, shading.roughness, point.error,
-                                             point.received.is_known));
+        out_surface = packSurface(LitSurface(values.normal, point.flat_normal, values.base_color, values.metallic,
+                                             shading.roughness, point.error, point.received.is_known));
     else
 #endif
 #ifdef HEARTH_SUMMED_LIGHTS
@@ -104,11 +101,8 @@ vec3 lit(SurfacePoint point, SurfaceUvs uvs, mediump vec3 base)
 #endif
         radiance = directLight(point, shading, layers);
 
-    mediump float occlusion_strength = material.occlusion_strength;
-    mediump float occlusion = mix(1.0, sampleSurface(uvs, kTextureOcclusion, occlusion_texture).r, occlusion_strength);
-    radiance += surroundingLight(point, shading, layers, occlusion);
-    vec3 emission = material.emissive * sampleSurface(uvs, kTextureEmissive, emissive_texture).rgb *
-                    point.received.emission_weight;
+    radiance += surroundingLight(point, shading, layers, values.occlusion);
+    vec3 emission = values.emission * point.received.emission_weight;
     return radiance + belowCoat(layers) * lighting.exposure * emission;
 }
 
@@ -116,6 +110,6 @@ vec3 lit(SurfacePoint point, SurfaceUvs uvs, mediump vec3 base)
 vec3 displayColor(SurfacePoint point, SurfaceUvs uvs)
 {
     mediump vec3 factor = material.base_color.rgb;
-    mediump vec3 base = factor * point.color * sampleSurface(uvs, kTextureBaseColor, base_color_texture).rgb;
-    return kUnlit ? shadedUnlit(base) : shadedColor(lit(point, uvs, base));
+    MaterialValues values = materialValues(point, uvs, factor * point.color);
+    return kUnlit ? shadedUnlit(values.base_color) : shadedColor(lit(point, uvs, values));
 }

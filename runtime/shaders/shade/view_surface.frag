@@ -15,6 +15,7 @@
 #include "runtime/shaders/shade/tonemap.glsl"
 #include "runtime/shaders/shade/sky_occlusion.glsl"
 #include "runtime/shaders/shade/light_list.glsl"
+#include "runtime/shaders/shade/material_values.glsl"
 #include "runtime/shaders/scene/receivers.glsl"
 
 layout(early_fragment_tests) in;
@@ -90,8 +91,8 @@ vec3 skyVisibilityColor(Surface s)
     if (!kSkyVisibility || (s.draw.vertex_layout & kVertexVisibility) == 0u)
         return vec3(0.35, 0.05, 0.05);
     SurfacePoint point = surfacePoint(s);
-    SurfaceUvs uvs = surfaceUvs(s);
-    vec3 normal = shadingNormal(point, uvs);
+    MaterialValues values = materialValues(point, surfaceUvs(s), point.color);
+    vec3 normal = values.normal;
     SkyView sky = skyView(point, normal, kTextureNormal);
     if (push.debug_view == kViewAmbientOcclusion)
         return vec3(diffuseSky(sky));
@@ -99,9 +100,8 @@ vec3 skyVisibilityColor(Surface s)
         return sky.cone.axis * 0.5 + 0.5;
     if (push.debug_view == kViewAperture)
         return vec3(sky.cone.aperture * (2.0 / kVisibilityPi));
-    vec4 metallic_roughness = sampleSurface(uvs, kTextureMetallicRoughness, metallic_roughness_texture);
     vec3 to_eye = normalizeOr(-point.position, normal);
-    return vec3(specularSky(sky, surfaceRoughness(metallic_roughness), clampedCosine(normal, to_eye), reflect(-to_eye, normal)));
+    return vec3(specularSky(sky, values.roughness, clampedCosine(normal, to_eye), reflect(-to_eye, normal)));
 }
 
 void main()
@@ -133,7 +133,7 @@ void main()
     else if (push.debug_view == kViewLightCount || push.debug_view == kViewLightCells)
         color = (0.5 + 0.5 * facing) * lightColor(s);
     else if (push.debug_view == kViewNormals)
-        color = shadingNormal(surfacePoint(s), surfaceUvs(s)) * 0.5 + 0.5;
+        color = materialValues(surfacePoint(s), surfaceUvs(s), vec3(1.0)).normal * 0.5 + 0.5;
     else
         color = vec3(push.depth_scale / (push.depth_scale + s.distance_w));
     out_color = vec4(linearFromSrgb(color), 1.0);

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <hearth.hpp>
+#include <materials_material_shaders.h>
 #include <string>
 #include <vulkan/vulkan.h>
 
@@ -163,6 +164,7 @@ void draw(const std::string& path, const Device& device, const Readback& readbac
     description.instance = device.instance;
     description.physical_device = device.physical;
     description.device = device.device;
+    description.material_shaders = &materials_material_shaders;
     hearth::Renderer renderer;
     check(hearth::Renderer::create(description, renderer, &why), why);
     const auto checkCall = [&](hearth_result result) { check(result, renderer.lastError()); };

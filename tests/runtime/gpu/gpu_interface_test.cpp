@@ -57,7 +57,8 @@ std::map<std::string, uint32_t> constantIds()
             {"kStored", shared::kConstantStored},
             {"kReflects", shared::kConstantReflects},
             {"kReceivers", shared::kConstantReceivers},
-            {"kLocalProbes", shared::kConstantLocalProbes}};
+            {"kLocalProbes", shared::kConstantLocalProbes},
+            {"kMaterialFunction", shared::kConstantMaterialFunction}};
 }
 
 /// Not a GpuTest: that creates pipelines, and a driver may crash where a shader and a layout differ.

@@ -7,8 +7,8 @@
 #include "formats/gpu_shared/gather.h"
 #include "formats/gpu_shared/light_cells.h"
 #include "formats/gpu_shared/material_tiles.h"
-#include "formats/gpu_shared/queries/picks.h"
 #include "formats/gpu_shared/push_constants.h"
+#include "formats/gpu_shared/queries/picks.h"
 #include "formats/gpu_shared/receivers/receiver_points.h"
 #include "formats/gpu_shared/shading.h"
 #include "formats/gpu_shared/shadow.h"
@@ -139,11 +139,11 @@ std::vector<SharedStruct> frameStructs()
 {
     return {
         HEARTH_STRUCT(FrameView, clip_x, clip_y, clip_w, planes, eye, z_near, lod_scale, threshold, flags,
-                      instance_count, width, height, corner_cosine, reserved, lod_curve),
+                      instance_count, width, height, corner_cosine, reserved, lod_curve, material_inputs),
         HEARTH_STRUCT(OcclusionView, clip_x, clip_y, clip_w, eye, z_near, width, height, level_count,
                       reserved),
         HEARTH_STRUCT(Material, base_color, emissive, alpha_cutoff, metallic, roughness, normal_scale,
-                      occlusion_strength, flags, alpha_mode, textures, uv_sets, uv_rows),
+                      occlusion_strength, flags, alpha_mode, textures, uv_sets, uv_rows, parameters),
         HEARTH_STRUCT(MaterialLayers, dielectric_f0, specular, sheen_color, sheen_roughness, clearcoat,
                       clearcoat_roughness, clearcoat_normal_scale, reserved, uv_rows),
         HEARTH_STRUCT(Light, position, type, direction, range, intensity, shadow_row, cone_scale, cone_offset,
