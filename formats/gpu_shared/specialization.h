@@ -23,12 +23,14 @@ HEARTH_CONSTANT uint kConstantFiltersShadows = 8;
 HEARTH_CONSTANT uint kConstantLightList = 9; ///< lights that a pixel evaluates, below
 /// Colour that shading writes, and the format of bloom: kStored*, below.
 HEARTH_CONSTANT uint kConstantStored = 10;
-HEARTH_CONSTANT uint kConstantReflects = 11;  ///< 1: what surrounds lamps gives light back (reflector.h)
-HEARTH_CONSTANT uint kConstantReceivers = 12; ///< 1: the scene has receivers (receivers/receiver_rows.h)
+HEARTH_CONSTANT uint kConstantReflects = 11;    ///< 1: what surrounds lamps gives light back (reflector.h)
+HEARTH_CONSTANT uint kConstantReceivers = 12;   ///< 1: the scene has receivers (receivers/receiver_rows.h)
 HEARTH_CONSTANT uint kConstantLocalProbes = 13; ///< 1: the scene has local probes (local_probes.h)
 /// Number of the material's function among those of the game, from 1; 0: none.
 HEARTH_CONSTANT uint kConstantMaterialFunction = 14;
-HEARTH_CONSTANT uint kConstantCount = 15;
+/// 1: the image that a frame shows holds sRGB codes, which the shader computes; 0: its format does, if any.
+HEARTH_CONSTANT uint kConstantEncodes = 15;
+HEARTH_CONSTANT uint kConstantCount = 16;
 
 /// Lights that a pixel evaluates, beside those that every point gets.
 HEARTH_CONSTANT uint kLightListFrame = 0; ///< all of the frame
@@ -46,10 +48,12 @@ HEARTH_CONSTANT uint kDeformedOnDemand = 1; ///< skinned on demand by the shader
 /// Skinned by an earlier pass, as far as the scratch buffer has room.
 HEARTH_CONSTANT uint kDeformedPreSkinned = 2;
 
-HEARTH_CONSTANT uint kStoredDisplay = 0; ///< the finished colour
-HEARTH_CONSTANT uint kStoredGraded = 1;  ///< the same, with exposure and photo filter
-HEARTH_CONSTANT uint kStoredPacked = 2;  ///< radiance in B10G11R11_UFLOAT
-HEARTH_CONSTANT uint kStoredHalf = 3;    ///< radiance in R16G16B16A16_SFLOAT
+HEARTH_CONSTANT uint kStoredDisplay = 0;       ///< the finished colour
+HEARTH_CONSTANT uint kStoredGraded = 1;        ///< the same, with exposure and photo filter
+HEARTH_CONSTANT uint kStoredPacked = 2;        ///< radiance in B10G11R11_UFLOAT
+HEARTH_CONSTANT uint kStoredHalf = 3;          ///< radiance in R16G16B16A16_SFLOAT
+HEARTH_CONSTANT uint kStoredExposedPacked = 4; ///< as kStoredPacked, times the exposure: what a frame shows
+HEARTH_CONSTANT uint kStoredExposedHalf = 5;   ///< as kStoredHalf, times the exposure
 
 HEARTH_SHARED_END
 

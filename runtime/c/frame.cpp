@@ -39,6 +39,8 @@ Status checkPost(const gpu::Renderer& renderer, const hearth_frame& frame)
     const bool has_grading = frame.exposure_stops != 0 || frame.filter_density != 0;
     if (has_grading && renderer.postSupport() == gpu::PostSupport::none)
         return usage("exposure_stops and filter_density need a renderer with HEARTH_FEATURE_GRADING");
+    if (frame.filter_density != 0 && renderer.colorFormat().content == gpu::ColorContent::radiance)
+        return usage("filter_density is not 0, and the color_format has radiance, ahead of the tone curve");
     return success();
 }
 
@@ -75,8 +77,6 @@ Status check(const hearth_renderer& renderer, const hearth_frame& frame)
         return usage("constant_sky is neither 0 nor 1");
     if (frame.light_lists > HEARTH_LIGHT_LISTS_CPU)
         return usage("light_lists has a value that this version does not know");
-    if (frame.reserved != 0)
-        return usage("reserved is not 0");
     return checkPost(*renderer.renderer, frame);
 }
 
@@ -127,6 +127,8 @@ Status checkFrame(const hearth_scene& scene, const hearth_targets& targets, cons
     const bool blooms = frame->bloom_strength > 0 || frame->automatic_exposure != 0;
     if (blooms && !targets.targets.options().may_bloom)
         return usage("bloom_strength and automatic_exposure need targets with HEARTH_TARGETS_BLOOM");
+    if (frame->color_image >= std::max<size_t>(1, targets.targets.options().colors.images.size()))
+        return usage("color_image is not the number of one of the targets' colors");
     return success();
 }
 
@@ -251,6 +253,7 @@ Result<gpu::FrameInput> makeInput(const hearth_scene& scene, const gpu::FrameTar
                            .daylight = scene.daylight ? &*scene.daylight : nullptr,
                            .lamp_weights = scene.lamp_weights,
                            .emission = scene.emissions,
+                           .color_image = frame.color_image,
                            .timestamps = frame.timestamps};
 }
 

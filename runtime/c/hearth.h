@@ -232,7 +232,18 @@ typedef struct hearth_renderer_description
     void* message_user;
     /* since 1.8 */
     uint32_t frame_way; /* HEARTH_FRAME_* */
-    uint32_t reserved;  /* 0 */
+    /* Of the images that frames show; the device can draw to it. VK_FORMAT_UNDEFINED: R8G8B8A8_SRGB.
+     * - Display colours: R8G8B8A8_SRGB, B8G8R8A8_SRGB.
+     * - The same as sRGB codes, for images without an SRGB format: R8G8B8A8_UNORM, B8G8R8A8_UNORM,
+     *   A2B10G10R10_UNORM_PACK32, A2R10G10B10_UNORM_PACK32. 8-bit images have the bytes of the SRGB formats, but
+     *   for a step of 255 where a device rounds otherwise; HEARTH_VIEW_OVERDRAW adds codes up.
+     * - Radiance, for the caller's tone curve: R16G16B16A16_SFLOAT, B10G11R11_UFLOAT_PACK32. Linear, with the
+     *   primaries of sRGB; behind the scene's own exposure, by which white paper in the sun has about 1, bloom,
+     *   the automatic exposure and 2^exposure_stops; ahead of the tone curve and the photo filter, so
+     *   filter_density is 0. Unlit colours have the radiance that Hearth's tone curve shows as them, at most
+     *   32. Debug views have linear display colours.
+     * Alpha is 1. */
+    VkFormat color_format;
     const hearth_material_shaders* material_shaders; /* outlive the renderer; or NULL */
 } hearth_renderer_description;
 
@@ -240,7 +251,7 @@ typedef struct hearth_renderer_description
     {                                                                                                        \
         sizeof(hearth_renderer_description), HEARTH_API_VERSION, NULL, VK_NULL_HANDLE, VK_NULL_HANDLE,       \
             VK_NULL_HANDLE, NULL, VK_NULL_HANDLE, 0, HEARTH_MATERIALS_DEPTH, {NULL, NULL, NULL}, NULL, NULL, \
-            HEARTH_FRAME_AUTOMATIC, 0, NULL                                                                  \
+            HEARTH_FRAME_AUTOMATIC, VK_FORMAT_UNDEFINED, NULL                                                \
     }
 
 /* Create pipelines, which takes seconds on some devices. The objects in the description outlive the renderer.
@@ -493,32 +504,6 @@ enum
     HEARTH_TARGETS_ENCODED_PREPASS = 512
 };
 
-/* What frames with the targets may ask for (1.8): images that never leave a tile-based GPU's tile need no
- * memory, and what no frame uses is not created. */
-typedef struct hearth_targets_description
-{
-    uint32_t struct_size;
-    uint32_t width, height;    /* pixels that are drawn, 1 to the limit of the device */
-    uint32_t occlusion;        /* HEARTH_OCCLUSION_*: the first of them that a frame may have */
-    uint32_t flags;            /* HEARTH_TARGETS_* */
-    uint32_t reserved;         /* 0 */
-    const hearth_scene* scene; /* that they will show, which saves what it does not need; or NULL: any */
-    /* pixels of the image, to which a final pass enlarges or reduces what is drawn; 0: width and height */
-    uint32_t output_width, output_height;
-} hearth_targets_description;
-
-#define HEARTH_TARGETS_DESCRIPTION_INIT                                                                      \
-    {                                                                                                        \
-        sizeof(hearth_targets_description), 0, 0, HEARTH_OCCLUSION_TWO_PHASE, 0, 0, NULL, 0, 0               \
-    }
-
-/* errors: USAGE, DEVICE_LIMIT, DEVICE_FAILED, OUT_OF_MEMORY. */
-HEARTH_API hearth_result hearth_targets_create(hearth_renderer* renderer,
-                                               const hearth_targets_description* description,
-                                               hearth_targets** targets);
-
-HEARTH_API hearth_result hearth_targets_destroy(hearth_targets* targets);
-
 /* State of an image, as a barrier names it. */
 typedef struct hearth_image_state
 {
@@ -535,12 +520,45 @@ typedef struct hearth_image
     hearth_image_state after;  /* state after a frame, visible to these accesses */
 } hearth_image;
 
+/* What frames with the targets may ask for (1.8): images that never leave a tile-based GPU's tile need no
+ * memory, and what no frame uses is not created. */
+typedef struct hearth_targets_description
+{
+    uint32_t struct_size;
+    uint32_t width, height;    /* pixels that are drawn, 1 to the limit of the device */
+    uint32_t occlusion;        /* HEARTH_OCCLUSION_*: the first of them that a frame may have */
+    uint32_t flags;            /* HEARTH_TARGETS_* */
+    uint32_t color_count;      /* of colors */
+    const hearth_scene* scene; /* that they will show, which saves what it does not need; or NULL: any */
+    /* pixels of the image, to which a final pass enlarges or reduces what is drawn; 0: width and height */
+    uint32_t output_width, output_height;
+    /* Images of the caller that frames show, each frame one of them (hearth_frame.color_image): of a swapchain,
+     * or imported. All have the renderer's color_format, one `before` and one `after`, usage COLOR_ATTACHMENT,
+     * the output's size, one mip and one layer, and outlive the targets. `before` has the uses that a frame
+     * waits for, with any layout: for a swapchain the stage whose wait for its semaphore is submitted,
+     * COLOR_ATTACHMENT_OUTPUT, and no access. The render pass that ends a frame leaves the image in the state
+     * `after`. NULL, with color_count 0: the targets have an image. */
+    const hearth_image* colors;
+} hearth_targets_description;
+
+#define HEARTH_TARGETS_DESCRIPTION_INIT                                                                      \
+    {                                                                                                        \
+        sizeof(hearth_targets_description), 0, 0, HEARTH_OCCLUSION_TWO_PHASE, 0, 0, NULL, 0, 0, NULL         \
+    }
+
+/* errors: USAGE, DEVICE_LIMIT, DEVICE_FAILED, OUT_OF_MEMORY. */
+HEARTH_API hearth_result hearth_targets_create(hearth_renderer* renderer,
+                                               const hearth_targets_description* description,
+                                               hearth_targets** targets);
+
+HEARTH_API hearth_result hearth_targets_destroy(hearth_targets* targets);
+
 typedef struct hearth_targets_info
 {
     uint32_t struct_size;
     uint32_t width, height; /* pixels that are drawn */
     uint32_t reserved;      /* 0 */
-    hearth_image color;     /* R8G8B8A8_SRGB, of the output's size */
+    hearth_image color;     /* of the renderer's color_format and the output's size; the first of `colors` */
     /* R32_UINT: slot of the visible list << 7 | triangle, or 0xFFFFFFFF. With HEARTH_TARGETS_KEEP_VISIBILITY;
      * else `image` is VK_NULL_HANDLE. */
     hearth_image visibility;
@@ -853,7 +871,7 @@ typedef struct hearth_frame
     uint32_t light_lists;                   /* HEARTH_LIGHT_LISTS_* */
     const hearth_lamp_weight* lamp_weights; /* read while recording */
     uint32_t lamp_weight_count;
-    uint32_t reserved; /* 0 */
+    uint32_t color_image; /* number of the targets' `colors` that the frame shows; 0 if they have none */
     /* from this frame on, until it is set anew; before `lights`. NULL: no change. An error where the sky is an image */
     const hearth_daylight* daylight;
     /* Off-centre images (eyes of a headset, parts of a large image, jitter): place of the camera's axis in the

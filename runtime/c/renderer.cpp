@@ -41,6 +41,19 @@ Result<hearth_renderer_description> completeDescription(const hearth_renderer_de
     return description;
 }
 
+VkFormat colorFormat(const hearth_renderer_description& description)
+{
+    return description.color_format == VK_FORMAT_UNDEFINED ? gpu::kColorFormat : description.color_format;
+}
+
+std::string listColorFormats()
+{
+    std::string list;
+    for (const gpu::ColorFormat& format : gpu::colorFormats())
+        list += (list.empty() ? "" : ", ") + std::string(format.name);
+    return list;
+}
+
 Status check(const hearth_renderer_description& description)
 {
     if (!supportsVersion(description.api_version))
@@ -54,6 +67,8 @@ Status check(const hearth_renderer_description& description)
     if ((description.features & ~kFeatures) != 0 || description.materials > HEARTH_MATERIALS_ID ||
         description.frame_way > HEARTH_FRAME_ONE_SET)
         return usage("features has bits, or materials or frame_way a value, that this version does not know");
+    if (gpu::findColorFormat(colorFormat(description)) == nullptr)
+        return usage("color_format is none of " + listColorFormats());
     if ((description.memory.allocate == nullptr) != (description.memory.free == nullptr))
         return usage("memory has one function and not the other");
     return success();
@@ -153,7 +168,8 @@ Result<std::unique_ptr<hearth_renderer>> create(const hearth_renderer_descriptio
                                                       : gpu::ReceiverUpdate::compute,
                                .material_shaders = description.material_shaders != nullptr
                                                        ? &made->material_shaders
-                                                       : nullptr}));
+                                                       : nullptr,
+                               .color_format = colorFormat(description)}));
     made->shows_overdraw = (description.features & HEARTH_FEATURE_OVERDRAW) != 0;
     if (made->shows_overdraw)
         HEARTH_TRY(made->renderer->prepareOverdraw());

@@ -20,6 +20,52 @@ hearth_image_use toC(const gpu::ImageUse& use)
     return {toC(use.before), toC(use.after)};
 }
 
+gpu::ImageState toState(const hearth_image_state& state)
+{
+    return {state.layout, state.stages, state.access};
+}
+
+bool operator==(const hearth_image_state& a, const hearth_image_state& b)
+{
+    return a.layout == b.layout && a.stages == b.stages && a.access == b.access;
+}
+
+/// Check the caller's images.
+Status checkColors(const hearth_renderer& renderer, const hearth_targets_description& description)
+{
+    if ((description.color_count == 0) != (description.colors == nullptr))
+        return usage("colors is NULL, or color_count is 0, and the other is not");
+    for (uint32_t i = 0; i < description.color_count; ++i)
+    {
+        const hearth_image& image = description.colors[i];
+        const std::string name = "image " + std::to_string(i) + " of colors ";
+        const gpu::ColorFormat& needed = renderer.renderer->colorFormat();
+        if (image.image == VK_NULL_HANDLE)
+            return usage(name + "is VK_NULL_HANDLE");
+        if (image.format != needed.format)
+            return usage(name + "has VkFormat " + std::to_string(static_cast<int>(image.format)) +
+                         ", and the renderer's color_format is " + needed.name + " (" +
+                         std::to_string(static_cast<int>(needed.format)) + ")");
+        if (image.after.layout == VK_IMAGE_LAYOUT_UNDEFINED ||
+            image.after.layout == VK_IMAGE_LAYOUT_PREINITIALIZED)
+            return usage(name + "has no layout after a frame: after.layout");
+        if (!(image.before == description.colors[0].before && image.after == description.colors[0].after))
+            return usage(name + "has another `before` or `after` than image 0");
+    }
+    return success();
+}
+
+gpu::CallerImages toImages(const hearth_targets_description& description)
+{
+    gpu::CallerImages colors;
+    for (uint32_t i = 0; i < description.color_count; ++i)
+        colors.images.push_back(description.colors[i].image);
+    if (description.color_count > 0)
+        colors.before = toState(description.colors->before),
+        colors.after = toState(description.colors->after);
+    return colors;
+}
+
 /// Return an image of the targets before and after a whole frame.
 hearth_image makeImage(const gpu::Image& image, const gpu::ImageUse& drawn, const gpu::ImageUse& shaded)
 {
@@ -29,6 +75,20 @@ hearth_image makeImage(const gpu::Image& image, const gpu::ImageUse& drawn, cons
             .format = image.format,
             .before = toC(first.before),
             .after = toC(shaded.after)};
+}
+
+/// Return the image that frames show; of the caller's images the first.
+hearth_image makeColor(const gpu::FrameTargets& targets, const gpu::ImageUse& drawn,
+                       const gpu::ImageUse& shaded)
+{
+    hearth_image color = makeImage(targets.color(), drawn, shaded);
+    if (const gpu::CallerImages& colors = targets.options().colors; !colors.images.empty())
+    {
+        color.image = colors.images.front();
+        color.before = toC(colors.before);
+        color.after = toC(colors.after);
+    }
+    return color;
 }
 
 /// Return the depth, which the caller gets and gives back in one layout.
@@ -66,8 +126,8 @@ Status check(const hearth_renderer& renderer, const hearth_targets_description& 
         HEARTH_TARGETS_KEEP_VISIBILITY | HEARTH_TARGETS_SPLIT | HEARTH_TARGETS_COUNT_MISSING |
         HEARTH_TARGETS_BLOOM | HEARTH_TARGETS_DEFERRED | HEARTH_TARGETS_TILE_DEFERRED | HEARTH_TARGETS_STACK |
         HEARTH_TARGETS_PREPASS | HEARTH_TARGETS_CLASSIC_PREPASS | HEARTH_TARGETS_ENCODED_PREPASS;
-    if ((description.flags & ~kFlags) != 0 || description.reserved != 0)
-        return usage("flags has bits that this version does not know, or reserved is not 0");
+    if ((description.flags & ~kFlags) != 0)
+        return usage("flags has bits that this version does not know");
     if ((description.output_width == 0) != (description.output_height == 0))
         return usage("output_width or output_height is 0");
     const bool needs_final_pass =
@@ -80,7 +140,7 @@ Status check(const hearth_renderer& renderer, const hearth_targets_description& 
                      "renderer with HEARTH_FEATURE_DEFERRED");
     if (description.scene != nullptr && description.scene->renderer != &renderer)
         return usage("the scene is of another renderer");
-    return success();
+    return checkColors(renderer, description);
 }
 
 gpu::TargetOptions toOptions(const hearth_targets_description& description)
@@ -90,6 +150,7 @@ gpu::TargetOptions toOptions(const hearth_targets_description& description)
                                .counts_missing = (description.flags & HEARTH_TARGETS_COUNT_MISSING) != 0,
                                .may_bloom = (description.flags & HEARTH_TARGETS_BLOOM) != 0,
                                .output = {description.output_width, description.output_height},
+                               .colors = toImages(description),
                                .light_paths = toLightPaths(description.flags)};
     if (description.scene == nullptr)
         return options;
@@ -161,7 +222,7 @@ hearth_result hearth_targets_get_info(const hearth_targets* targets, hearth_targ
                              .width = t.extent().width,
                              .height = t.extent().height,
                              .reserved = 0,
-                             .color = makeImage(t.color(), drawn.color, shaded.color),
+                             .color = makeColor(t, drawn.color, shaded.color),
                              .visibility = makeImage(t.visibility(), drawn.visibility, shaded.visibility),
                              .allocated_bytes = t.allocatedBytes(),
                              .transient_bytes = t.transientBytes()};
@@ -187,6 +248,9 @@ hearth_result hearth_targets_get_part_info(const hearth_targets* targets, uint32
                     const gpu::PartImages images = gpu::partImages(
                         static_cast<gpu::FramePart>(part), targets->targets.options().keeps_visibility);
                     info->color = toC(images.color);
+                    const gpu::CallerImages& colors = targets->targets.options().colors;
+                    if (!colors.images.empty() && images.color.after.stages != 0)
+                        info->color = {toC(colors.before), toC(colors.after)};
                     info->visibility = toC(images.visibility);
                     return success();
                 });

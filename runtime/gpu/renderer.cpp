@@ -41,6 +41,12 @@ constexpr RequiredFormat kStopsFormat = {
     kExposureFormat, VK_FORMAT_FEATURE_SAMPLED_IMAGE_BIT | VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT,
     "R32_SFLOAT", "automatic exposure"};
 
+/// Require that frames can be drawn to a format.
+RequiredFormat requireColor(const ColorFormat& format)
+{
+    return {format.format, VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BIT, format.name, "images that frames show"};
+}
+
 OcclusionCulling occlusionCulling(const FrameInput& input)
 {
     if ((input.view.flags & shared::kCullOcclusion) == 0)
@@ -120,7 +126,9 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const DeviceDescription& desc
 {
     std::unique_ptr<Renderer> renderer(new Renderer);
     Renderer& r = *renderer;
-    std::vector<RequiredFormat> formats;
+    const ColorFormat* color_format = findColorFormat(options.color_format);
+    HEARTH_ASSERT(color_format != nullptr);
+    std::vector<RequiredFormat> formats{requireColor(*color_format)};
     const MaterialTest materials =
         options.deferred || options.keeps_depth ? MaterialTest::id : options.materials;
     r.receiver_update_ = options.receiver_update;
@@ -144,8 +152,13 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const DeviceDescription& desc
         radiance_format = r.post_support_ == PostSupport::packed && r.device_.draws_packed_floats
                               ? kPackedRadiance
                               : kHalfFormat.format;
-    HEARTH_ASSIGN_OR_RETURN(r.passes_, FramePasses::create(r.device_, way, materials, radiance_format,
-                                                           options.deferred, options.keeps_depth));
+    HEARTH_ASSIGN_OR_RETURN(r.passes_,
+                            FramePasses::create(r.device_, {.way = way,
+                                                            .materials = materials,
+                                                            .radiance_format = radiance_format,
+                                                            .deferred = options.deferred,
+                                                            .keeps_depth = options.keeps_depth,
+                                                            .color_format = options.color_format}));
     HEARTH_ASSIGN_OR_RETURN(r.light_lists_, LightListsPass::create(r.device_, r.layouts_));
     HEARTH_ASSIGN_OR_RETURN(r.cull_, CullPass::create(r.device_, r.layouts_));
     HEARTH_ASSIGN_OR_RETURN(r.copy_words_, WordCopyPass::create(r.device_));
@@ -155,7 +168,8 @@ Result<std::unique_ptr<Renderer>> Renderer::create(const DeviceDescription& desc
     HEARTH_TRY(r.prepareDraws(LightPath::materials));
     if (r.passes_.hasFinalPasses())
     {
-        HEARTH_ASSIGN_OR_RETURN(r.post_, PostPass::create(r.device_, r.layouts_, r.passes_));
+        HEARTH_ASSIGN_OR_RETURN(
+            r.post_, PostPass::create(r.device_, r.layouts_, r.passes_, r.storedColor(ShadedOutput::color)));
     }
     return renderer;
 }
@@ -202,11 +216,16 @@ Status Renderer::prepareDraws(LightPath path)
     return success();
 }
 
-uint32_t Renderer::storedColor(ShadedOutput output) const
+StoredColor Renderer::storedColor(ShadedOutput output) const
 {
-    if (!isRadiance(output))
-        return post_support_ == PostSupport::none ? shared::kStoredDisplay : shared::kStoredGraded;
-    return passes_.radianceFormat() == kPackedRadiance ? shared::kStoredPacked : shared::kStoredHalf;
+    if (isRadiance(output))
+        return {passes_.radianceFormat() == kPackedRadiance ? shared::kStoredPacked : shared::kStoredHalf, 0};
+    const ColorFormat& format = colorFormat();
+    if (format.content == ColorContent::radiance)
+        return {format.format == kPackedRadiance ? shared::kStoredExposedPacked : shared::kStoredExposedHalf,
+                0};
+    return {post_support_ == PostSupport::none ? shared::kStoredDisplay : shared::kStoredGraded,
+            format.content == ColorContent::codes ? 1u : 0u};
 }
 
 const Renderer::DrawPasses& Renderer::drawPasses(const PassRecorder& passes) const
@@ -225,6 +244,7 @@ FrameDescription Renderer::describe(const Scene& scene, const FrameTargets& targ
     FrameConfiguration configuration = configure(scene, targets, input, in_parts);
     configuration.way = passes_.way();
     configuration.radiance_format = passes_.radianceFormat();
+    configuration.color_format = passes_.colorFormat();
     configuration.materials = passes_.materials();
     configuration.keeps_depth = passes_.keepsDepth();
     if (scene.shadows != nullptr)
@@ -446,6 +466,7 @@ void Renderer::recordCulled(VkCommandBuffer commands, const Scene& scene, FrameT
         device_.vk.vkCmdResetQueryPool(commands, input.timestamps, 0, kTimestampCount);
     writeTimestamp(device_, commands, input.timestamps, kTimestampBegin);
     const shared::FrameView view = scaledView(scene, input.view);
+    targets.chooseColor(input.color_image);
     trackShadows(scene, input.moves);
     passes.begin(FrameStep::update);
     WordCopies copies = recordFrameUpdate(device_, commands, scene, targets, copy_words_, view,

@@ -76,6 +76,7 @@ struct FrameInput
     /// Times that the frame gathers the indirect light of its pixels, at least 1; for a scene with bricks.
     /// More of them take the noise out of an image that no frames before it prepare.
     uint32_t gathers = 1;
+    uint32_t color_image = 0; ///< of TargetOptions::colors, that the frame draws; 0 if they have none
     VkQueryPool timestamps = VK_NULL_HANDLE; ///< kTimestampCount queries, reset by the frame; or none
 };
 
@@ -105,6 +106,7 @@ struct RendererOptions
     ReceiverUpdate receiver_update = ReceiverUpdate::compute;
     /// Functions of the game; or null: materials are as the pack has them.
     const MaterialShaders* material_shaders = nullptr;
+    VkFormat color_format = kColorFormat; ///< of the images that frames show: one of colorFormats()
 };
 
 class Renderer
@@ -123,6 +125,7 @@ public:
 
     FrameWay way() const { return passes_.way(); }
     bool keepsDepth() const { return passes_.keepsDepth(); }
+    const ColorFormat& colorFormat() const { return *findColorFormat(passes_.colorFormat()); }
     bool hasFinalPasses() const { return passes_.hasFinalPasses(); }
     PostSupport postSupport() const { return post_support_; }
     /// True if frames may have a light method.
@@ -194,8 +197,8 @@ private:
     Result<DrawPasses> createDrawPasses(ShadedOutput output) const;
     /// Create the passes of outputs that frames with a light path may have, unless they are there.
     Status prepareDraws(LightPath path);
-    /// Value of shared::kConstantStored.
-    uint32_t storedColor(ShadedOutput output) const;
+    /// Constants of what pipelines that draw to an output write.
+    StoredColor storedColor(ShadedOutput output) const;
     const DrawPasses& drawPasses(const PassRecorder& passes) const;
 
     Status prepareDeformed();

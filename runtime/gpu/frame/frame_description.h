@@ -5,6 +5,7 @@
 #pragma once
 
 #include "formats/gpu_shared/post.h"
+#include "runtime/gpu/frame/color_format.h"
 #include "runtime/gpu/lights/light_method.h"
 #include "runtime/gpu/vulkan/device_table.h"
 
@@ -288,6 +289,7 @@ struct Pass
     std::optional<uint32_t> map{};
     VkFormat map_format = VK_FORMAT_UNDEFINED;      ///< of that map
     VkFormat radiance_format = VK_FORMAT_UNDEFINED; ///< as FrameConfiguration
+    VkFormat color_format = kColorFormat;           ///< as FrameConfiguration
     /// Images that the pass reads and the caller gets after it, visible to transfers.
     std::vector<LayoutChange> handed_out{};
 };
@@ -379,6 +381,7 @@ struct FrameConfiguration
     bool adapts_exposure = false; ///< automatic exposure
     bool blooms = false;
     VkFormat radiance_format = kPackedRadiance;
+    VkFormat color_format = kColorFormat; ///< one of colorFormats()
     /// Place of lights. Others than materials have MaterialTest::id, and those that store surfaces a final
     /// pass; on the tile there is neither bloom nor automatic exposure.
     LightPath light_path = LightPath::materials;

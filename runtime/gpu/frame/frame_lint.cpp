@@ -24,6 +24,8 @@ double bytesPerPixel(const Pass& pass, Resource resource)
 {
     if (resource == Resource::shadow_map && pass.map_format == VK_FORMAT_D16_UNORM)
         return 2;
+    if (resource == Resource::color)
+        return findColorFormat(pass.color_format)->bytes;
     const double bytes = double{resourceFacts(resource).bytes_per_pixel};
     return isLinear(resource) && pass.radiance_format != kPackedRadiance ? 2 * bytes : bytes;
 }

@@ -22,7 +22,7 @@ VkFormat attachmentFormat(const Pass& pass, FrameResource resource, MaterialTest
     case FrameResource::shadow_map:
         return pass.map_format;
     case FrameResource::color:
-        return kColorFormat;
+        return pass.color_format;
     case FrameResource::surfaces:
         return kSurfacesFormat;
     case FrameResource::normals:
@@ -209,7 +209,7 @@ Result<PlannedPass> FramePasses::findOrCreate(const Device& device, const Pass& 
     if (const auto found = passes_.find(key); found != passes_.end())
         return PlannedPass{found->second.handle.get(), found->second.family};
     CreatedPass created;
-    HEARTH_ASSIGN_OR_RETURN(created.handle, createRenderPass(device, pass, materials_));
+    HEARTH_ASSIGN_OR_RETURN(created.handle, createRenderPass(device, pass, options_.materials));
     const VkRenderPass handle = created.handle.get();
     if (hasOwnSize(pass))
     {
@@ -234,24 +234,31 @@ Result<PlannedPass> FramePasses::findOrCreate(const Device& device, const Pass& 
     return planned;
 }
 
-Result<FramePasses> FramePasses::create(const Device& device, FrameWay way, MaterialTest materials,
-                                        std::optional<VkFormat> radiance_format, bool deferred,
-                                        bool keeps_depth)
+Result<UniqueRenderPass> FramePasses::createLeaving(const Device& device, const Pass& pass,
+                                                    VkImageLayout color) const
+{
+    Pass leaving = pass;
+    for (AttachmentUse& use : leaving.attachments)
+        if (use.resource == FrameResource::color)
+            use.final_layout = color;
+    return createRenderPass(device, leaving, options_.materials);
+}
+
+Result<FramePasses> FramePasses::create(const Device& device, const FramePassOptions& options)
 {
     FramePasses passes;
-    passes.way_ = way;
-    passes.materials_ = materials;
-    HEARTH_ASSERT(!deferred || radiance_format.has_value());
-    passes.radiance_format_ = radiance_format;
-    passes.keeps_depth_ = keeps_depth;
-    passes.features_ = deferred          ? FrameFeatures::deferred
-                       : radiance_format ? FrameFeatures::finished
-                                         : FrameFeatures::shaded;
+    passes.options_ = options;
+    HEARTH_ASSERT(!options.deferred || options.radiance_format.has_value());
+    passes.features_ = options.deferred          ? FrameFeatures::deferred
+                       : options.radiance_format ? FrameFeatures::finished
+                                                 : FrameFeatures::shaded;
     std::vector<FrameConfiguration> configurations;
-    for (FrameConfiguration configuration : allConfigurations(way, materials, passes.features_))
+    for (FrameConfiguration configuration :
+         allConfigurations(options.way, options.materials, passes.features_))
     {
         addLightLists(configuration);
-        configuration.keeps_depth = keeps_depth;
+        configuration.keeps_depth = options.keeps_depth;
+        configuration.color_format = options.color_format;
         configuration.lights_bricks = true;
         configuration.radiance_format = passes.radianceFormat();
         configurations.push_back(configuration);

@@ -14,7 +14,6 @@ namespace hearth::gpu
 {
 
 inline constexpr VkFormat kVisibilityFormat = VK_FORMAT_R32_UINT;
-inline constexpr VkFormat kColorFormat = VK_FORMAT_R8G8B8A8_SRGB;
 /// Words that runtime/shaders/shade/surface_words.glsl packs.
 inline constexpr VkFormat kSurfacesFormat = VK_FORMAT_R32G32B32A32_UINT;
 /// Texels that runtime/shaders/prepass/normal_texel.glsl packs. Every device draws and samples them.
@@ -64,27 +63,35 @@ struct DrawPlace
     uint32_t subpass;
 };
 
+/// Facts that all frames of a renderer share.
+struct FramePassOptions
+{
+    FrameWay way = FrameWay::merged;
+    MaterialTest materials = MaterialTest::depth;
+    /// As FrameConfiguration, of frames with a final pass; none: there are no such frames.
+    std::optional<VkFormat> radiance_format{};
+    bool deferred = false;    ///< there are frames that light stored surfaces; they have a final pass
+    bool keeps_depth = false; ///< as FrameConfiguration
+    VkFormat color_format = kColorFormat;
+};
+
 /// Plans of all configurations, made before any frame is recorded. They have the light of bricks, lists of
 /// lights, and for scenes with shadows maps of all kinds: a frame records what it needs of them.
 class FramePasses
 {
 public:
-    /// radiance_format  as FrameConfiguration, of frames with a final pass; none: there are no such frames
-    /// deferred         there are frames that light stored surfaces; they have a final pass
-    /// keeps_depth      as FrameConfiguration, of all frames
     /// errors: device_failed.
-    static Result<FramePasses> create(const Device& device, FrameWay way, MaterialTest materials,
-                                      std::optional<VkFormat> radiance_format = {}, bool deferred = false,
-                                      bool keeps_depth = false);
+    static Result<FramePasses> create(const Device& device, const FramePassOptions& options);
 
-    FrameWay way() const { return way_; }
-    MaterialTest materials() const { return materials_; }
+    FrameWay way() const { return options_.way; }
+    MaterialTest materials() const { return options_.materials; }
     FrameFeatures features() const { return features_; }
-    bool keepsDepth() const { return keeps_depth_; }
+    bool keepsDepth() const { return options_.keeps_depth; }
+    VkFormat colorFormat() const { return options_.color_format; }
     bool hasFinalPasses() const { return features_ >= FrameFeatures::finished; }
     /// True if the output is one of the frames' that the passes draw.
     bool has(ShadedOutput output) const;
-    VkFormat radianceFormat() const { return radiance_format_.value_or(kPackedRadiance); }
+    VkFormat radianceFormat() const { return options_.radiance_format.value_or(kPackedRadiance); }
     /// Plan of a configuration; its way, its test of materials, its bricks and its maps do not matter, nor do
     /// lists of lights ahead of the visibility buffer.
     const FramePlan& plan(const FrameConfiguration& configuration) const;
@@ -99,6 +106,8 @@ public:
     }
     /// Return a render pass that draws a shadow map of a format; all of it are compatible.
     VkRenderPass shadowMapPass(VkFormat format) const;
+    /// Create a render pass like one of a plan that leaves `color` in this layout. errors: device_failed.
+    Result<UniqueRenderPass> createLeaving(const Device& device, const Pass& pass, VkImageLayout color) const;
 
 private:
     /// Format of a shadow map; load and store operations and layouts of the attachments.
@@ -109,11 +118,8 @@ private:
     /// Any plan will do: passes of a family have the same subpasses.
     static DrawPlace findPlace(const FramePlan& plan, FrameStep step);
 
-    FrameWay way_ = FrameWay::merged;
-    MaterialTest materials_ = MaterialTest::depth;
+    FramePassOptions options_;
     FrameFeatures features_ = FrameFeatures::shaded;
-    bool keeps_depth_ = false;
-    std::optional<VkFormat> radiance_format_;
     std::vector<FramePlan> plans_; ///< [planNumber]
     std::vector<PassFamily> families_;
     struct CreatedPass

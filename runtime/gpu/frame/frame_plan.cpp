@@ -432,7 +432,8 @@ std::vector<Pass> joinSteps(const FrameConfiguration& c, const std::vector<Step>
                   .host_write = step.host_write,
                   .map = step.map,
                   .map_format = step.map ? c.shadow_format : VK_FORMAT_UNDEFINED,
-                  .radiance_format = c.has_final_pass ? c.radiance_format : kPackedRadiance};
+                  .radiance_format = c.has_final_pass ? c.radiance_format : kPackedRadiance,
+                  .color_format = c.color_format};
         for (const Step& other : is_merged ? merged : std::vector<Step>())
             pass.subpasses.push_back(makeEmptySubpass(other));
         if (is_merged)

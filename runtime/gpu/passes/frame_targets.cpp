@@ -24,15 +24,16 @@ Result<Image> createTexel(MemoryArena& arena, VkFormat format)
     return arena.createImage({.format = format, .extent = {1, 1}, .usage = VK_IMAGE_USAGE_SAMPLED_BIT});
 }
 
-/// Create a view of the depth without a stencil, to be sampled.
-Result<UniqueImageView> createDepthView(const Device& device, const Image& image)
+/// Create a view of one aspect of an image of one mip and layer.
+Result<UniqueImageView> createAspectView(const Device& device, VkImage image, VkFormat format,
+                                         VkImageAspectFlags aspect)
 {
     VkImageViewCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO;
-    info.image = image.handle.get();
+    info.image = image;
     info.viewType = VK_IMAGE_VIEW_TYPE_2D;
-    info.format = image.format;
-    info.subresourceRange = {VK_IMAGE_ASPECT_DEPTH_BIT, 0, 1, 0, 1};
+    info.format = format;
+    info.subresourceRange = {aspect, 0, 1, 0, 1};
     VkImageView view;
     HEARTH_TRY_VK(device.vk.vkCreateImageView(device.handle, &info, device.allocator, &view),
                   "create an image view");
@@ -55,6 +56,7 @@ Result<FrameTargets> FrameTargets::create(const Device& device, const FramePasse
     FrameTargets t(device, extent, options);
     HEARTH_TRY(t.createPost(device, passes, layouts));
     HEARTH_TRY(t.createImages(device, passes));
+    HEARTH_TRY(t.createLeavingPasses(device, passes));
     HEARTH_TRY(t.createFramebuffers(device, passes));
     HEARTH_TRY(t.createPyramids(device));
     HEARTH_TRY(t.createTileLists(device));
@@ -190,15 +192,80 @@ Status FrameTargets::createImages(const Device& device, const FramePasses& passe
     }
     if (depth_leaves_tile_ || options_.light_paths != 0)
     {
-        HEARTH_ASSIGN_OR_RETURN(sampled_depth_, createDepthView(device, depth_));
+        // without a stencil, to be sampled
+        HEARTH_ASSIGN_OR_RETURN(sampled_depth_, createAspectView(device, depth_.handle.get(), depth_.format,
+                                                                 VK_IMAGE_ASPECT_DEPTH_BIT));
     }
-    if (options_.output.width != 0)
-        extent = options_.output;
-    return create(color_, FrameResource::color, kColorFormat, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
-                  VK_IMAGE_USAGE_TRANSFER_SRC_BIT, VK_IMAGE_ASPECT_COLOR_BIT);
+    return createColors(device, passes);
 }
 
-const Image& FrameTargets::attachmentImage(FrameResource resource, uint32_t exposure) const
+/// Create the image that frames show, or views of the caller's.
+Status FrameTargets::createColors(const Device& device, const FramePasses& passes)
+{
+    const VkExtent2D extent = options_.output.width != 0 ? options_.output : extent_;
+    const VkFormat format = passes.colorFormat();
+    for (const VkImage image : options_.colors.images)
+    {
+        Image& color = colors_.emplace_back();
+        color.format = format;
+        color.extent = extent;
+        HEARTH_ASSIGN_OR_RETURN(color.view,
+                                createAspectView(device, image, format, VK_IMAGE_ASPECT_COLOR_BIT));
+    }
+    if (!colors_.empty())
+        return success();
+    HEARTH_ASSIGN_OR_RETURN(Image own, arena_.createImage({.format = format,
+                                                           .extent = extent,
+                                                           .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
+                                                                    VK_IMAGE_USAGE_TRANSFER_SRC_BIT}));
+    colors_.push_back(std::move(own));
+    return success();
+}
+
+/// Create the render passes that leave an image of the caller in its state.
+Status FrameTargets::createLeavingPasses(const Device& device, const FramePasses& passes)
+{
+    if (options_.colors.images.empty())
+        return success();
+    for (const FrameConfiguration& c : allConfigurations(passes.way(), passes.materials(), passes.features()))
+    {
+        if (!allows(c))
+            continue;
+        const FramePlan& plan = passes.plan(c);
+        for (size_t i = 0; i < plan.render_passes.size(); ++i)
+        {
+            const Pass& pass = plan.description.passes[i];
+            const bool leaves_color = std::any_of(
+                pass.attachments.begin(), pass.attachments.end(),
+                [](const AttachmentUse& use) { return use.resource == FrameResource::color && use.store; });
+            const VkRenderPass handle = plan.render_passes[i].render_pass;
+            if (!leaves_color || leaving_passes_.contains(handle))
+                continue;
+            HEARTH_ASSIGN_OR_RETURN(leaving_passes_[handle],
+                                    passes.createLeaving(device, pass, options_.colors.after.layout));
+        }
+    }
+    return success();
+}
+
+VkRenderPass FrameTargets::leavingPass(VkRenderPass render_pass) const
+{
+    const auto found = leaving_passes_.find(render_pass);
+    return found == leaving_passes_.end() ? render_pass : found->second.get();
+}
+
+void FrameTargets::chooseColor(uint32_t image)
+{
+    HEARTH_ASSERT(image < colors_.size());
+    color_image_ = image;
+}
+
+size_t FrameTargets::countImages(FrameResource resource) const
+{
+    return resource == FrameResource::color ? colors_.size() : resource == FrameResource::exposure ? 2 : 1;
+}
+
+const Image& FrameTargets::attachmentImage(FrameResource resource, uint32_t number) const
 {
     static const Image kNone{};
     switch (resource)
@@ -208,7 +275,7 @@ const Image& FrameTargets::attachmentImage(FrameResource resource, uint32_t expo
     case FrameResource::depth:
         return depth_;
     case FrameResource::color:
-        return color_;
+        return colors_[number];
     case FrameResource::surfaces:
         return surfaces_;
     case FrameResource::normals:
@@ -223,7 +290,7 @@ const Image& FrameTargets::attachmentImage(FrameResource resource, uint32_t expo
         return light_images_[static_cast<size_t>(resource) -
                              static_cast<size_t>(FrameResource::diffuse_light)];
     case FrameResource::exposure:
-        return post_ ? post_->exposureImage(exposure) : kNone;
+        return post_ ? post_->exposureImage(number) : kNone;
     default:
         return post_ ? post_->image(resource) : kNone;
     }
@@ -233,7 +300,7 @@ LitImages FrameTargets::litImages(LightPath path) const
 {
     // marks of lights read the depth alone
     const Image& lit = storesSurfaces(path) ? surfaces_
-                       : sumsLights(path)   ? attachmentImage(normalsImage(path), 0)
+                       : sumsLights(path)   ? attachmentImage(normalsImage(path))
                                             : visibility_;
     return {lit.view.get(), sampled_depth_.get(), texel_sampler_.get(),
             sets_[static_cast<size_t>(path)].identity};
@@ -242,9 +309,11 @@ LitImages FrameTargets::litImages(LightPath path) const
 VkFramebuffer FrameTargets::framebuffer(uint32_t family) const
 {
     const FamilyFramebuffer& framebuffer = framebuffers_[family];
-    const bool is_other =
-        post_ && framebuffer.handles[1].get() != VK_NULL_HANDLE && post_->exposureNumber() == 1;
-    return framebuffer.handles[is_other ? 1 : 0].get();
+    const uint32_t number = framebuffer.turning == FrameResource::color      ? color_image_
+                            : framebuffer.turning == FrameResource::exposure ? post_->exposureNumber()
+                                                                             : 0;
+    HEARTH_ASSERT(number < framebuffer.handles.size());
+    return framebuffer.handles[number].get();
 }
 
 /// Create no framebuffer of attachments that no frame uses, or not together.
@@ -253,31 +322,37 @@ Status FrameTargets::createFramebuffers(const Device& device, const FramePasses&
     for (const PassFamily& family : passes.families())
     {
         FamilyFramebuffer& framebuffer = framebuffers_.emplace_back();
-        framebuffer.extent = attachmentImage(family.attachments.front(), 0).extent;
+        framebuffer.extent = attachmentImage(family.attachments.front()).extent;
         const bool is_used = std::all_of(family.attachments.begin(), family.attachments.end(),
                                          [&](FrameResource resource)
                                          {
-                                             const Image& image = attachmentImage(resource, 0);
+                                             const Image& image = attachmentImage(resource);
                                              return image.view.get() != VK_NULL_HANDLE &&
                                                     image.extent.width == framebuffer.extent.width &&
                                                     image.extent.height == framebuffer.extent.height;
                                          });
         if (!is_used)
             continue;
-        HEARTH_TRY(createFramebuffer(device, family, 0, framebuffer.handles[0]));
-        if (family.attachments.front() == FrameResource::exposure)
-            HEARTH_TRY(createFramebuffer(device, family, 1, framebuffer.handles[1]));
+        for (const FrameResource resource : family.attachments)
+            if (resource == FrameResource::color || resource == FrameResource::exposure)
+                framebuffer.turning = resource;
+        for (uint32_t number = 0; number < countImages(framebuffer.turning); ++number)
+        {
+            HEARTH_ASSIGN_OR_RETURN(UniqueFramebuffer handle, createFramebuffer(device, family, number));
+            framebuffer.handles.push_back(std::move(handle));
+        }
     }
     return success();
 }
 
-Status FrameTargets::createFramebuffer(const Device& device, const PassFamily& family, uint32_t exposure,
-                                       UniqueFramebuffer& framebuffer)
+/// number  of the images that take turns as an attachment
+Result<UniqueFramebuffer> FrameTargets::createFramebuffer(const Device& device, const PassFamily& family,
+                                                          uint32_t number) const
 {
     std::vector<VkImageView> views;
     for (const FrameResource resource : family.attachments)
-        views.push_back(attachmentImage(resource, exposure).view.get());
-    const VkExtent2D extent = attachmentImage(family.attachments.front(), exposure).extent;
+        views.push_back(attachmentImage(resource, countImages(resource) > 1 ? number : 0).view.get());
+    const VkExtent2D extent = attachmentImage(family.attachments.front()).extent;
     VkFramebufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
     info.renderPass = family.any_pass;
@@ -289,8 +364,7 @@ Status FrameTargets::createFramebuffer(const Device& device, const PassFamily& f
     VkFramebuffer handle;
     HEARTH_TRY_VK(device.vk.vkCreateFramebuffer(device.handle, &info, device.allocator, &handle),
                   "create a framebuffer");
-    framebuffer = UniqueFramebuffer(device, handle);
-    return success();
+    return UniqueFramebuffer(device, handle);
 }
 
 void FrameTargets::beginFrame(const shared::FrameView& view)

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "formats/gpu_shared/records.h"
+#include "runtime/gpu/frame/frame_parts.h"
 #include "runtime/gpu/frame/frame_passes.h"
 #include "runtime/gpu/passes/gather_targets.h"
 #include "runtime/gpu/post/post_targets.h"
@@ -12,12 +13,25 @@
 #include "runtime/gpu/scene/scene_frames.h"
 
 #include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
+#include <vector>
 
 namespace hearth::gpu
 {
+
+/// Images of the caller that frames show, each frame one of them: of the renderer's colour format and of the
+/// output's size, with one mip and one layer and usage COLOR_ATTACHMENT. They outlive the targets.
+struct CallerImages
+{
+    std::vector<VkImage> images{};
+    /// Uses of an image that a frame waits for; its content is lost, whatever the layout.
+    ImageState before{};
+    /// State after a frame, visible to these accesses; the layout is one that images may be changed to.
+    ImageState after{};
+};
 
 /// Demands of the frames that are drawn with targets: images that never leave the tile need no memory, and
 /// what no frame uses is not created.
@@ -39,6 +53,7 @@ struct TargetOptions
     VkExtent2D output{};
     /// `radiance` can be copied after a frame.
     bool keeps_radiance = false;
+    CallerImages colors{}; ///< none: an image of the targets
     /// Paths that the light methods of frames ask for, beside `materials`: bits lightPathBit. `surfaces`
     /// includes surfaces_on_tile; with bloom, automatic exposure or an output of another size methods on the
     /// tile ask for `surfaces`.
@@ -67,10 +82,11 @@ inline bool alwaysHasFinalPass(const TargetOptions& options, VkExtent2D extent)
 }
 
 /// Render targets of one camera. After a frame `color` is in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, visible to
-/// transfers; so is `visibility` if it is kept. `depth`, if the renderer keeps it, is in
-/// VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL after a frame, and has to be before the next one. `radiance`, if
-/// it is kept, is in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, visible to fragments: a copy waits for those
-/// by a barrier of the caller's. Before a frame the content and layout of all but a kept depth do not matter.
+/// transfers, or as CallerImages says; `visibility`, if it is kept, is in that layout as well. `depth`, if the
+/// renderer keeps it, is in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL after a frame, and has to be before the
+/// next one. `radiance`, if it is kept, is in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, visible to fragments:
+/// a copy waits for those by a barrier of the caller's. Before a frame the content and layout of all but a
+/// kept depth do not matter.
 ///
 /// The pyramid is a guess: whatever it holds, the rendered frame is the same. The better the guess, the less
 /// is drawn.
@@ -85,13 +101,19 @@ public:
     /// Rendering size.
     VkExtent2D extent() const { return extent_; }
     /// Size of color().
-    VkExtent2D outputExtent() const { return color_.extent; }
+    VkExtent2D outputExtent() const { return color().extent; }
     const TargetOptions& options() const { return options_; }
     /// True if a frame of the configuration uses nothing that the options exclude.
     bool allows(const FrameConfiguration& configuration) const;
     const Image& visibility() const { return visibility_; }
     const Image& depth() const { return depth_; }
-    const Image& color() const { return color_; }
+    /// Image that the frame begun last shows; without a handle if it is the caller's.
+    const Image& color() const { return colors_[color_image_]; }
+    /// Choose the image that frames show, of TargetOptions::colors.
+    void chooseColor(uint32_t image);
+    /// Return what a frame draws with in place of a render pass of its plan: one that leaves `color` as the
+    /// caller wants it, if the pass is the one that leaves it.
+    VkRenderPass leavingPass(VkRenderPass render_pass) const;
     /// Images of final passes; with TargetOptions::has_final_pass.
     PostTargets& post() { return *post_; }
     const PostTargets& post() const { return *post_; }
@@ -162,10 +184,15 @@ private:
     std::set<FrameResource> findStored(const FramePasses& passes) const;
     bool needs(FrameResource resource) const;
     Status createFramebuffers(const Device& device, const FramePasses& passes);
-    Status createFramebuffer(const Device& device, const PassFamily& family, uint32_t exposure,
-                             UniqueFramebuffer& framebuffer);
+    Result<UniqueFramebuffer> createFramebuffer(const Device& device, const PassFamily& family,
+                                                uint32_t number) const;
+    Status createColors(const Device& device, const FramePasses& passes);
+    Status createLeavingPasses(const Device& device, const FramePasses& passes);
+    /// Number of images that take turns as one attachment.
+    size_t countImages(FrameResource resource) const;
     /// Image of an attachment; its view is null if no frame uses it.
-    const Image& attachmentImage(FrameResource resource, uint32_t exposure) const;
+    /// number  of those that take turns
+    const Image& attachmentImage(FrameResource resource, uint32_t number = 0) const;
     Status createPyramids(const Device& device);
     uint32_t pyramidCount() const { return options_.counts_missing ? 2 : 1; }
     uint32_t nextPyramid() const { return options_.counts_missing ? 1 - pyramid_ : pyramid_; }
@@ -184,14 +211,17 @@ private:
     std::array<Image, 5> light_images_;
     bool depth_leaves_tile_ = false;
     UniqueImageView sampled_depth_; ///< without a stencil; empty if no frame reads the depth
-    Image color_;
+    std::vector<Image> colors_;     ///< of the caller, without handles; or the targets' own
+    uint32_t color_image_ = 0;
+    std::map<VkRenderPass, UniqueRenderPass> leaving_passes_; ///< [pass of a plan]
     // texels in place of images that no frame reads: some drivers look at all descriptors of a set
     Image no_depth_, no_light_, no_light_image_;
     std::optional<PostTargets> post_; ///< with TargetOptions::has_final_pass
     struct FamilyFramebuffer
     {
         VkExtent2D extent{};
-        UniqueFramebuffer handles[2]; ///< the second for the other image of the exposure
+        FrameResource turning = FrameResource::count; ///< attachment of which images take turns
+        std::vector<UniqueFramebuffer> handles{};     ///< [image]
     };
     std::vector<FamilyFramebuffer> framebuffers_; ///< [family]; empty if no frame uses it
     Buffer pyramids_[2];                          ///< the second with TargetOptions::counts_missing

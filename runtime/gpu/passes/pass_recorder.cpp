@@ -27,6 +27,25 @@ bool isRepeated(FrameStep step)
            step == FrameStep::bloom_down || step == FrameStep::bloom_up;
 }
 
+/// Return the image that the frame shows among the attachments of a pass; null if it has none.
+const AttachmentUse* findColor(const Pass& pass)
+{
+    const auto found =
+        std::find_if(pass.attachments.begin(), pass.attachments.end(),
+                     [](const AttachmentUse& use) { return use.resource == FrameResource::color; });
+    return found == pass.attachments.end() ? nullptr : &*found;
+}
+
+/// Return a barrier that waits for uses of an image of the caller as well, which are over then.
+PassBarrier withUses(PassBarrier barrier, const ImageState& before)
+{
+    barrier.from |= before.stages;
+    barrier.written |= before.access;
+    barrier.to |= accessStages(Access::color_write);
+    barrier.accessed |= accessFlags(Access::color_write);
+    return barrier;
+}
+
 constexpr size_t kMaxAttachments = 8;
 
 VkClearValue clearValue(FrameResource resource)
@@ -52,7 +71,7 @@ void PassRecorder::begin(FrameStep step)
         beginPass(number);
         const PlannedPass& planned = plan_.render_passes[number];
         if (open_->kind == PassKind::render)
-            beginRenderPass(planned.render_pass, targets_.framebuffer(planned.family),
+            beginRenderPass(targets_.leavingPass(planned.render_pass), targets_.framebuffer(planned.family),
                             targets_.framebufferExtent(planned.family));
     }
     while (open_->kind == PassKind::render &&
@@ -85,6 +104,7 @@ void PassRecorder::end()
         for (const LayoutChange& change : open_->handed_out)
             handOut(change);
         wait(open_->vertex_barrier);
+        handOutColor();
     }
     open_ = nullptr;
 }
@@ -126,7 +146,10 @@ void PassRecorder::beginPass(size_t number)
     passes_begun_ = number + 1;
     subpass_ = 0;
     wait(open_->barrier);
-    wait(open_->fragment_barrier);
+    const CallerImages& colors = targets_.options().colors;
+    wait(!colors.images.empty() && findColor(*open_) != nullptr
+             ? withUses(open_->fragment_barrier, colors.before)
+             : open_->fragment_barrier);
 }
 
 void PassRecorder::wait(const PassBarrier& described) const
@@ -171,6 +194,18 @@ void PassRecorder::handOut(const LayoutChange& change)
     image.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
     device_.vk.vkCmdPipelineBarrier(commands_, accessStages(Access::fragment_read),
                                     VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0, nullptr, 1, &image);
+}
+
+/// Show an image of the caller, which the pass has left in its layout, to the caller's uses.
+void PassRecorder::handOutColor() const
+{
+    const CallerImages& colors = targets_.options().colors;
+    const AttachmentUse* color = findColor(*open_);
+    if (colors.images.empty() || colors.after.stages == 0 || color == nullptr || !color->store)
+        return;
+    // dependencies of render passes end in the stage of copies, and have to be the same for all of a family
+    barrier(device_, commands_, accessStages(Access::color_write) | VK_PIPELINE_STAGE_TRANSFER_BIT,
+            accessFlags(Access::color_write), colors.after.stages, colors.after.access);
 }
 
 void PassRecorder::nextSubpass()

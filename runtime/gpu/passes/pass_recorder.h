@@ -46,6 +46,7 @@ private:
     void wait(const PassBarrier& described) const;
     void nextSubpass();
     void handOut(const LayoutChange& change);
+    void handOutColor() const;
 
     const Device& device_;
     VkCommandBuffer commands_;

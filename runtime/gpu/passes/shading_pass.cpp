@@ -147,7 +147,8 @@ void ShadingPass::setStencil(const Device& device, VkCommandBuffer commands, uin
 }
 
 Result<ShadingPass> ShadingPass::create(const Device& device, const DrawLayouts& layouts,
-                                        const FramePasses& passes, ShadedOutput output, uint32_t stored,
+                                        const FramePasses& passes, ShadedOutput output,
+                                        const StoredColor& color,
                                         const MaterialShaders* functions)
 {
     ShadingPass pass;
@@ -158,7 +159,7 @@ Result<ShadingPass> ShadingPass::create(const Device& device, const DrawLayouts&
     const shaders::Variant reading = shaderVariant(pass.way_);
     pass.material_test_ = passes.materials();
     pass.view_constants_[shared::kConstantComparesMaterial] = pass.material_test_ == MaterialTest::id ? 1 : 0;
-    pass.view_constants_[shared::kConstantStored] = stored;
+    setStoredColor(pass.view_constants_, color);
     if (sumsLights(lightPath(output)))
         pass.normals_place_ = passes.place(output, FrameStep::normals);
     const bool stores_surfaces = storesSurfaces(lightPath(output));
@@ -255,6 +256,7 @@ Status ShadingPass::prepareBrickViews(const Device& device, const DrawLayouts& l
             describeSurfaceView(shaders::view_bricks_frag, layouts.brick_views.get());
         bricks.depth_compare = VK_COMPARE_OP_ALWAYS;
         bricks.one_set = false;
+        bricks.constants = view_constants_;
         HEARTH_ASSIGN_OR_RETURN(brick_views_, createGraphicsPipeline(device, bricks));
     }
     UniquePipeline& gathered = gi_views_[variant.deformed];

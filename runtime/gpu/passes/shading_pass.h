@@ -90,11 +90,10 @@ inline bool usesGi(const Scene& scene, const ShadingSettings& view)
 class ShadingPass
 {
 public:
-    /// stored     value of shared::kConstantStored
     /// functions  of the game, outlive the pass; or null
     static Result<ShadingPass> create(const Device& device, const DrawLayouts& layouts,
-                                      const FramePasses& passes, ShadedOutput output, uint32_t stored,
-                                      const MaterialShaders* functions);
+                                      const FramePasses& passes, ShadedOutput output,
+                                      const StoredColor& color, const MaterialShaders* functions);
 
     /// Return the pipelines of a material; creates each variant once and caches it. Call before frames are
     /// recorded. Frames that light stored surfaces show no debug views, and have no pipelines for them.

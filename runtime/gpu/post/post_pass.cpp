@@ -13,14 +13,17 @@ constexpr VkShaderStageFlags kPushStages = VK_SHADER_STAGE_FRAGMENT_BIT;
 
 } // namespace
 
-Result<PostPass> PostPass::create(const Device& device, const DrawLayouts& layouts, const FramePasses& passes)
+Result<PostPass> PostPass::create(const Device& device, const DrawLayouts& layouts, const FramePasses& passes,
+                                  const StoredColor& shown)
 {
-    DrawConstants constants{}; // these shaders have no others
-    constants[shared::kConstantStored] =
-        passes.radianceFormat() == kPackedRadiance ? shared::kStoredPacked : shared::kStoredHalf;
+    const StoredColor between{
+        passes.radianceFormat() == kPackedRadiance ? shared::kStoredPacked : shared::kStoredHalf, 0};
     const auto createAt = [&](const DrawPlace& place, VkDescriptorSetLayout set,
-                              std::span<const uint32_t> fragment, uint32_t push_bytes) -> Result<Pipeline>
+                              std::span<const uint32_t> fragment, uint32_t push_bytes,
+                              const StoredColor& color) -> Result<Pipeline>
     {
+        DrawConstants constants{}; // these shaders have no others
+        setStoredColor(constants, color);
         const NumberedSet sets[] = {{shared::kSetPost, set}};
         Pipeline pipeline;
         HEARTH_ASSIGN_OR_RETURN(pipeline.layout, createPipelineLayout(device, sets, kPushStages, push_bytes));
@@ -37,14 +40,14 @@ Result<PostPass> PostPass::create(const Device& device, const DrawLayouts& layou
         return pipeline;
     };
     const auto create = [&](FrameStep step, std::span<const uint32_t> fragment, uint32_t push_bytes)
-    { return createAt(passes.filterPlace(step), layouts.post.get(), fragment, push_bytes); };
+    { return createAt(passes.filterPlace(step), layouts.post.get(), fragment, push_bytes, between); };
     PostPass pass;
     if (passes.has(ShadedOutput::surfaces_on_tile) && hasSubpasses(passes.way()))
     {
         const DrawPlace place = passes.place(ShadedOutput::surfaces_on_tile, FrameStep::final_pass);
-        HEARTH_ASSIGN_OR_RETURN(
-            pass.final_on_tile_,
-            createAt(place, layouts.post_input.get(), shaders::final_tile_frag, sizeof(shared::FinalPush)));
+        HEARTH_ASSIGN_OR_RETURN(pass.final_on_tile_,
+                                createAt(place, layouts.post_input.get(), shaders::final_tile_frag,
+                                         sizeof(shared::FinalPush), shown));
     }
     HEARTH_ASSIGN_OR_RETURN(
         pass.exposure_, create(FrameStep::exposure, shaders::exposure_frag, sizeof(shared::ExposurePush)));
@@ -58,9 +61,9 @@ Result<PostPass> PostPass::create(const Device& device, const DrawLayouts& layou
     for (const size_t bloom : {size_t{0}, size_t{1}})
         for (const size_t exposure : {size_t{0}, size_t{1}})
         {
-            HEARTH_ASSIGN_OR_RETURN(
-                pass.final_[bloom][exposure],
-                create(FrameStep::final_pass, finals[bloom][exposure], sizeof(shared::FinalPush)));
+            HEARTH_ASSIGN_OR_RETURN(pass.final_[bloom][exposure],
+                                    createAt(passes.filterPlace(FrameStep::final_pass), layouts.post.get(),
+                                             finals[bloom][exposure], sizeof(shared::FinalPush), shown));
         }
     return pass;
 }

@@ -14,8 +14,9 @@ class PostPass
 {
 public:
     /// The passes have final passes.
+    /// shown  what the finished image holds
     static Result<PostPass> create(const Device& device, const DrawLayouts& layouts,
-                                   const FramePasses& passes);
+                                   const FramePasses& passes, const StoredColor& shown);
 
     /// Each records inside its step, with viewport and scissor set. Clobbers the graphics state.
     void recordExposure(const Device& device, VkCommandBuffer commands, const PostTargets& targets,

@@ -26,6 +26,20 @@ inline constexpr VkShaderStageFlags kShadingPushStages =
 /// Values of the specialization constants of drawing, by id: shared::kConstant*.
 using DrawConstants = std::array<uint32_t, shared::kConstantCount>;
 
+/// Values of the constants that say what an image holds of a colour.
+struct StoredColor
+{
+    uint32_t stored = shared::kStoredDisplay; ///< shared::kConstantStored
+    uint32_t encodes = 0;                     ///< shared::kConstantEncodes
+};
+
+/// Set the constants of pipelines that draw such colours.
+inline void setStoredColor(DrawConstants& constants, const StoredColor& color)
+{
+    constants[shared::kConstantStored] = color.stored;
+    constants[shared::kConstantEncodes] = color.encodes;
+}
+
 /// Descriptors by which shading gets what it reads.
 struct ShadingDescriptors
 {

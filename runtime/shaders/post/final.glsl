@@ -3,6 +3,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/push_constants.h"
+#include "runtime/shaders/shade/image_color.glsl"
+#include "runtime/shaders/shade/stored_radiance.glsl"
 #include "runtime/shaders/shade/tonemap.glsl"
 
 #ifdef HEARTH_ON_TILE
@@ -23,7 +25,9 @@ vec3 withBloom(vec3 color, vec3 bloom)
 vec4 finished(vec3 color, float exposure)
 {
     if (push.shows_data != 0u)
-        return vec4(color, 1.0);
+        return vec4(imageColor(color), 1.0);
+    if (kStoresExposed)
+        return vec4(storedRadiance(exposure * color), 1.0);
     vec3 filter_color = vec3(push.filter_red, push.filter_green, push.filter_blue);
-    return vec4(photoFilter(toneMap(exposure * color), filter_color, push.filter_density), 1.0);
+    return vec4(imageColor(photoFilter(toneMap(exposure * color), filter_color, push.filter_density)), 1.0);
 }

@@ -1,6 +1,7 @@
-// Colour that shading writes: finished or, for frames with a final pass, scene-linear.
+// Colour that shading writes: finished or, for frames with a final pass and images of radiance, scene-linear.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/shaders/scene/shading_push.glsl"
+#include "runtime/shaders/shade/image_color.glsl"
 #include "runtime/shaders/shade/stored_radiance.glsl"
 #include "runtime/shaders/shade/tonemap.glsl"
 
@@ -12,10 +13,10 @@ mediump vec3 behindFilter(mediump vec3 display)
 vec3 shadedColor(vec3 radiance)
 {
     if (kStored == kStoredDisplay)
-        return toneMap(radiance);
+        return imageColor(toneMap(radiance));
     if (kStored == kStoredGraded)
-        return behindFilter(toneMap(push.exposure * radiance));
-    return storedRadiance(radiance);
+        return imageColor(behindFilter(toneMap(push.exposure * radiance)));
+    return storedRadiance(kStoresExposed ? push.exposure * radiance : radiance);
 }
 
 // The same of an unlit colour, a display colour: it passes the tone curve as it is, unless the exposure
@@ -23,8 +24,9 @@ vec3 shadedColor(vec3 radiance)
 vec3 shadedUnlit(vec3 display)
 {
     if (kStored == kStoredDisplay)
-        return display;
+        return imageColor(display);
     if (kStored == kStoredGraded)
-        return behindFilter(push.exposure == 1.0 ? display : toneMap(push.exposure * radianceFromDisplay(display)));
-    return storedRadiance(radianceFromDisplay(display));
+        return imageColor(behindFilter(push.exposure == 1.0 ? display : toneMap(push.exposure * radianceFromDisplay(display))));
+    vec3 radiance = radianceFromDisplay(display);
+    return storedRadiance(kStoresExposed ? push.exposure * radiance : radiance);
 }

@@ -7,6 +7,7 @@
 #include "formats/gpu_shared/push_constants.h"
 #include "runtime/shaders/scene/bricks.glsl"
 #include "runtime/shaders/scene/pixel_ray.glsl"
+#include "runtime/shaders/shade/image_color.glsl"
 #include "runtime/shaders/shade/tonemap.glsl"
 
 layout(push_constant) uniform Push { ShadingPush push; };
@@ -48,5 +49,5 @@ void main()
             color = (brickAlbedoAt(face) * facing + brickEmissionAt(face)) * (1.0 - 0.5 * edgeWeight(place, ray.face, pixel_voxels));
         }
     }
-    out_color = vec4(color, 1.0);
+    out_color = vec4(imageColor(color), 1.0);
 }

@@ -8,6 +8,7 @@
 #include "runtime/shaders/scene/shading_push.glsl"
 #include "formats/gpu_shared/shading.h"
 #include "formats/gpu_shared/specialization.h"
+#include "runtime/shaders/shade/image_color.glsl"
 #include "runtime/shaders/shade/tonemap.glsl"
 
 layout(set = kSetTables, binding = kTableFrame, std140) uniform Frame { FrameView view; };
@@ -57,5 +58,5 @@ void main()
     Cluster cluster = clusters[slot.cluster];
     vec3 color = push.debug_view == kViewCones ? coneColor(cluster)
                                           : errorColor(errorRatio(instances[slot.instance], cluster));
-    out_color = vec4(linearFromSrgb(color), 1.0);
+    out_color = vec4(imageColor(linearFromSrgb(color)), 1.0);
 }

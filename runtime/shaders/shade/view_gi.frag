@@ -12,6 +12,7 @@
 #include "runtime/shaders/scene/resolve.glsl"
 #include "runtime/shaders/scene/visibility_input.glsl"
 #include "runtime/shaders/scene/material_test.glsl"
+#include "runtime/shaders/shade/image_color.glsl"
 #include "runtime/shaders/shade/tonemap.glsl"
 #include "runtime/shaders/gi/sample_gi.glsl"
 
@@ -25,5 +26,5 @@ void main()
         discard;
     Surface s = resolveSurface(id, gl_FragCoord.xy);
     vec3 normal = smoothNormal(s) * (s.front ? 1.0 : -1.0);
-    out_color = vec4(toneMap(sampleGi(gl_FragCoord.xy, s.position, normal, 1.0).diffuse), 1.0);
+    out_color = vec4(imageColor(toneMap(sampleGi(gl_FragCoord.xy, s.position, normal, 1.0).diffuse)), 1.0);
 }

@@ -12,6 +12,7 @@
 #include "runtime/shaders/scene/visibility_input.glsl"
 #include "runtime/shaders/scene/material_test.glsl"
 #include "runtime/shaders/scene/light_block.glsl"
+#include "runtime/shaders/shade/image_color.glsl"
 #include "runtime/shaders/shade/shadow.glsl"
 
 layout(early_fragment_tests) in;
@@ -42,5 +43,5 @@ void main()
     }
     // dimmed by the angle to the eye, so that the shape is visible
     float facing = 0.35 + 0.65 * abs(dot(normal, normalizeOr(s.position, vec3(0.0))));
-    out_color = vec4(color * facing, 1.0);
+    out_color = vec4(imageColor(color * facing), 1.0);
 }

@@ -12,6 +12,7 @@
 #include "runtime/shaders/scene/light_block.glsl"
 #include "runtime/shaders/scene/visibility_input.glsl"
 #include "runtime/shaders/scene/material_test.glsl"
+#include "runtime/shaders/shade/image_color.glsl"
 #include "runtime/shaders/shade/tonemap.glsl"
 #include "runtime/shaders/shade/sky_occlusion.glsl"
 #include "runtime/shaders/shade/light_list.glsl"
@@ -115,7 +116,7 @@ void main()
     vec3 color;
     if (push.debug_view == kViewReceivers)
     {
-        out_color = vec4(receivedColor(s, facing), 1.0);
+        out_color = vec4(imageColor(receivedColor(s, facing)), 1.0);
         return;
     }
     if (push.debug_view == kViewClusters)
@@ -136,5 +137,5 @@ void main()
         color = materialValues(surfacePoint(s), surfaceUvs(s), vec3(1.0)).normal * 0.5 + 0.5;
     else
         color = vec3(push.depth_scale / (push.depth_scale + s.distance_w));
-    out_color = vec4(linearFromSrgb(color), 1.0);
+    out_color = vec4(imageColor(linearFromSrgb(color)), 1.0);
 }

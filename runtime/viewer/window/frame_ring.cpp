@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/window/frame_ring.h"
 
+#include "runtime/viewer/window/swapchain.h"
+
 #include <algorithm>
 
 namespace hearth::viewer
@@ -71,7 +73,7 @@ Status FrameRing::submit(VkSemaphore drawn)
     const Slot& slot = slots_[this->slot()];
     HEARTH_TRY_VK(vk_.vkEndCommandBuffer(slot.commands), "end a command buffer");
     HEARTH_TRY_VK(vk_.vkResetFences(device_, 1, &slot.done), "reset a fence");
-    const VkPipelineStageFlags stage = VK_PIPELINE_STAGE_TRANSFER_BIT;
+    const VkPipelineStageFlags stage = kImageWait;
     VkSubmitInfo submit{};
     submit.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
     submit.waitSemaphoreCount = 1;

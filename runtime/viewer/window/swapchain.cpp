@@ -11,9 +11,8 @@ using gpu::vulkanError;
 namespace
 {
 
-// copies and the panel draw to it; screenshots read it
-constexpr VkImageUsageFlags kUsage =
-    VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+// frames and the panel draw to it; screenshots read it
+constexpr VkImageUsageFlags kUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
 
 VkSurfaceCapabilitiesKHR queryCapabilities(const VulkanHost& host, const WindowTable& vk)
 {
@@ -37,12 +36,11 @@ VkExtent2D chooseExtent(const VkSurfaceCapabilitiesKHR& surface, VkExtent2D requ
 } // namespace
 
 Result<std::unique_ptr<Swapchain>> Swapchain::create(const VulkanHost& host, const gpu::Device& device,
-                                                     const WindowTable& vk)
+                                                     const WindowTable& vk, VkSurfaceFormatKHR format)
 {
-    std::unique_ptr<Swapchain> swapchain(new Swapchain(host, device, vk));
-    HEARTH_TRY(swapchain->chooseFormat());
+    std::unique_ptr<Swapchain> swapchain(new Swapchain(host, device, vk, format));
     if ((queryCapabilities(host, vk).supportedUsageFlags & kUsage) != kUsage)
-        return Error{Issue::device, "", "", "images cannot be copied to the window and back"};
+        return Error{Issue::device, "", "", "images of the window cannot be drawn and copied from"};
     HEARTH_TRY(swapchain->createOverlayPass());
     return swapchain;
 }
@@ -54,13 +52,21 @@ Swapchain::~Swapchain()
         vk_.vkDestroySwapchainKHR(device_.handle, swapchain_, nullptr);
 }
 
-Status Swapchain::chooseFormat()
+gpu::CallerImages Swapchain::callerImages() const
+{
+    gpu::CallerImages images{.before = {VK_IMAGE_LAYOUT_UNDEFINED, kImageWait, 0}, .after = kDrawnImage};
+    for (const Image& image : images_)
+        images.images.push_back(image.image);
+    return images;
+}
+
+Result<VkSurfaceFormatKHR> Swapchain::chooseFormat(const VulkanHost& host, const WindowTable& vk)
 {
     uint32_t count = 0;
-    const VkPhysicalDevice physical_device = host_.description().physical_device;
-    vk_.vkGetPhysicalDeviceSurfaceFormatsKHR(physical_device, host_.surface(), &count, nullptr);
+    const VkPhysicalDevice physical_device = host.description().physical_device;
+    vk.vkGetPhysicalDeviceSurfaceFormatsKHR(physical_device, host.surface(), &count, nullptr);
     std::vector<VkSurfaceFormatKHR> formats(count);
-    vk_.vkGetPhysicalDeviceSurfaceFormatsKHR(physical_device, host_.surface(), &count, formats.data());
+    vk.vkGetPhysicalDeviceSurfaceFormatsKHR(physical_device, host.surface(), &count, formats.data());
     const auto found = std::find_if(formats.begin(), formats.end(),
                                     [](const VkSurfaceFormatKHR& format) {
                                         return format.format == VK_FORMAT_B8G8R8A8_SRGB ||
@@ -68,8 +74,7 @@ Status Swapchain::chooseFormat()
                                     });
     if (found == formats.end())
         return Error{Issue::device, "", "", "the window shows no sRGB images"};
-    format_ = *found;
-    return success();
+    return *found;
 }
 
 Status Swapchain::createOverlayPass()
@@ -81,19 +86,17 @@ Status Swapchain::createOverlayPass()
     attachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
     attachment.stencilLoadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
     attachment.stencilStoreOp = VK_ATTACHMENT_STORE_OP_DONT_CARE;
-    attachment.initialLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
-    attachment.finalLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
+    attachment.initialLayout = kDrawnImage.layout;
+    attachment.finalLayout = VK_IMAGE_LAYOUT_PRESENT_SRC_KHR;
     const VkAttachmentReference color{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
     VkSubpassDescription subpass{};
     subpass.colorAttachmentCount = 1;
     subpass.pColorAttachments = &color;
     constexpr VkSubpassDependency kDependencies[] = {
-        {VK_SUBPASS_EXTERNAL, 0, VK_PIPELINE_STAGE_TRANSFER_BIT,
-         VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
-         VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, 0},
-        {0, VK_SUBPASS_EXTERNAL, VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
-         VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, VK_ACCESS_TRANSFER_READ_BIT,
-         0}};
+        {VK_SUBPASS_EXTERNAL, 0, kDrawnImage.stages, kDrawnImage.stages, kDrawnImage.access,
+         kDrawnImage.access, 0},
+        {0, VK_SUBPASS_EXTERNAL, kDrawnImage.stages, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT,
+         VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, 0, 0}};
     VkRenderPassCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO;
     info.attachmentCount = 1;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
+#include "runtime/gpu/passes/frame_targets.h"
 #include "runtime/viewer/vulkan_host.h"
 #include "runtime/viewer/window/window_table.h"
 
@@ -10,13 +11,24 @@
 namespace hearth::viewer
 {
 
+/// State in which a frame leaves an image of the window: it is drawn over, or presented.
+inline constexpr gpu::ImageState kDrawnImage{
+    VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
+    VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT};
+/// Stage in which frames wait for an image of the window.
+inline constexpr VkPipelineStageFlags kImageWait = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
+
 class Swapchain
 {
 public:
+    /// Choose a format of the window that frames can have: 8 bits per channel, sRGB. errors: device if there
+    /// is none.
+    static Result<VkSurfaceFormatKHR> chooseFormat(const VulkanHost& host, const WindowTable& vk);
+
     /// Create without images: resize makes them. The arguments outlive it. errors: device if the window
     /// cannot show frames of the renderer; device_failed.
     static Result<std::unique_ptr<Swapchain>> create(const VulkanHost& host, const gpu::Device& device,
-                                                     const WindowTable& vk);
+                                                     const WindowTable& vk, VkSurfaceFormatKHR format);
     ~Swapchain();
 
     /// Recreate the images at the size of the window. No frame is in flight.
@@ -26,7 +38,7 @@ public:
 
     /// 0 x 0: the window has no area, and there are no images.
     VkExtent2D extent() const { return extent_; }
-    VkFormat format() const { return format_.format; } ///< 8 bits per channel, sRGB
+    VkFormat format() const { return format_.format; }
 
     /// Acquire the next image; none if the window has changed and needs resize. errors: device_failed.
     Result<std::optional<uint32_t>> acquire(VkSemaphore available);
@@ -34,10 +46,11 @@ public:
     Result<bool> present(uint32_t image);
 
     VkImage image(uint32_t index) const { return images_[index].image; }
+    /// Return all images, for targets whose frames draw them.
+    gpu::CallerImages callerImages() const;
     VkSemaphore drawn(uint32_t index) const { return images_[index].drawn; }
 
-    /// Render pass that draws over an image: expects it in TRANSFER_DST_OPTIMAL after a transfer, and leaves
-    /// it in TRANSFER_SRC_OPTIMAL, visible to transfers.
+    /// Render pass that draws over an image: expects it as kDrawnImage, and leaves it in the present layout.
     VkRenderPass overlayPass() const { return overlay_pass_.get(); }
     VkFramebuffer overlay(uint32_t index) const { return images_[index].framebuffer.get(); }
 
@@ -50,11 +63,11 @@ private:
         VkSemaphore drawn = VK_NULL_HANDLE;
     };
 
-    Swapchain(const VulkanHost& host, const gpu::Device& device, const WindowTable& vk)
-        : host_(host), device_(device), vk_(vk)
+    Swapchain(const VulkanHost& host, const gpu::Device& device, const WindowTable& vk,
+              VkSurfaceFormatKHR format)
+        : host_(host), device_(device), vk_(vk), format_(format)
     {
     }
-    Status chooseFormat();
     Status createOverlayPass();
     Status createSwapchain(const VkSurfaceCapabilitiesKHR& surface);
     Status createImage(VkImage image);
@@ -63,7 +76,7 @@ private:
     const VulkanHost& host_;
     const gpu::Device& device_;
     const WindowTable& vk_;
-    VkSurfaceFormatKHR format_{};
+    VkSurfaceFormatKHR format_;
     gpu::UniqueRenderPass overlay_pass_;
     VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
     VkExtent2D extent_{};

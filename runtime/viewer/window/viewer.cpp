@@ -75,13 +75,15 @@ Status Viewer::open()
     HEARTH_ASSIGN_OR_RETURN(
         host_, VulkanHost::create(
                    {.device_name = options_.device, .validate = options_.validate, .window = &host_window}));
-    // the panel offers the light methods of the path that the window begins with, and of simpler ones
-    HEARTH_ASSIGN_OR_RETURN(renderer_,
-                            gpu::Renderer::create(host_->description(), rendererOptions(settings_.frame)));
-    HEARTH_TRY(renderer_->prepareOverdraw());
     HEARTH_ASSIGN_OR_RETURN(vk_, loadWindowTable(host_->description()));
+    HEARTH_ASSIGN_OR_RETURN(const VkSurfaceFormatKHR format, Swapchain::chooseFormat(*host_, vk_));
+    // the panel offers the light methods of the path that the window begins with, and of simpler ones
+    gpu::RendererOptions options = rendererOptions(settings_.frame);
+    options.color_format = format.format;
+    HEARTH_ASSIGN_OR_RETURN(renderer_, gpu::Renderer::create(host_->description(), options));
+    HEARTH_TRY(renderer_->prepareOverdraw());
     const gpu::Device& device = renderer_->device();
-    HEARTH_ASSIGN_OR_RETURN(swapchain_, Swapchain::create(*host_, device, vk_));
+    HEARTH_ASSIGN_OR_RETURN(swapchain_, Swapchain::create(*host_, device, vk_, format));
     HEARTH_ASSIGN_OR_RETURN(frames_, FrameRing::create(*host_, device, vk_));
     HEARTH_ASSIGN_OR_RETURN(meter_, FrameMeter::create(*host_, device));
     HEARTH_ASSIGN_OR_RETURN(imgui_, ImguiLayer::create(*window_, *host_, device, *swapchain_));
@@ -297,6 +299,7 @@ Status Viewer::supportSettings()
     if (options.post <= renderer().postSupport() && renderer().supports(settings_.frame.light_method))
         return success();
     options.post = gpu::PostSupport::packed;
+    options.color_format = swapchain_->format();
     options.deferred = options.deferred || renderer().supports(gpu::LightMethod::deferred);
     HEARTH_ASSIGN_OR_RETURN(std::unique_ptr<gpu::Renderer> renderer,
                             gpu::Renderer::create(host_->description(), options));
@@ -362,10 +365,10 @@ Status Viewer::poseScene()
 Status Viewer::resize()
 {
     HEARTH_TRY(frames_->waitForAll());
+    targets_.reset(); // they refer to the images
     HEARTH_TRY(swapchain_->resize(window_->extent()));
     resized_ = false;
     const VkExtent2D extent = swapchain_->extent();
-    targets_.reset();
     if (extent.width == 0)
         return success();
     const FrameSettings& frame = drawn_;
@@ -374,6 +377,7 @@ Status Viewer::resize()
                                                      {.gathers_light = scene_->scene().bricks != nullptr,
                                                       .may_bloom = needsBloomLevels(frame),
                                                       .output = extent,
+                                                      .colors = swapchain_->callerImages(),
                                                       .light_paths = lightPaths(frame)}));
     return success();
 }
@@ -434,19 +438,18 @@ void Viewer::recordFrame(VkCommandBuffer commands, uint32_t image, bool panel, c
     frame.lamp_weights = lamp_weights_.changes();
     frame.daylight = daylight_change_ ? &*daylight_change_ : nullptr;
     frame.timestamps = meter_->timestamps(frames_->slot());
+    frame.color_image = image;
     renderer().record(commands, scene, *targets_, frame);
     meter_->record(commands, *scene_, frames_->slot(), settings_.count_culling);
 
     const gpu::Device& device = renderer_->device();
     const VkImage window = swapchain_->image(image);
-    recordImage(device, vk_, commands, *targets_, window);
+    if (screenshot != nullptr)
+        recordReadback(device, vk_, commands, window, swapchain_->extent(), *screenshot);
     if (panel)
         imgui_->record(commands, *swapchain_, image);
     else
-        recordWithoutOverlay(device, commands, window);
-    if (screenshot != nullptr)
-        recordReadback(device, vk_, commands, window, swapchain_->extent(), *screenshot);
-    recordPresentable(device, commands, window);
+        recordPresentable(device, commands, window);
 }
 
 Result<bool> Viewer::saveScreenshot(const std::string& file)

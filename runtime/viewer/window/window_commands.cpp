@@ -11,15 +11,8 @@ namespace
 
 constexpr VkPipelineStageFlags kTransfer = VK_PIPELINE_STAGE_TRANSFER_BIT;
 
-struct ImageAccess
-{
-    VkPipelineStageFlags stage;
-    VkAccessFlags access;
-    VkImageLayout layout;
-};
-
-void transition(const gpu::Device& device, VkCommandBuffer commands, VkImage image, const ImageAccess& from,
-                const ImageAccess& to)
+void transition(const gpu::Device& device, VkCommandBuffer commands, VkImage image,
+                const gpu::ImageState& from, const gpu::ImageState& to)
 {
     VkImageMemoryBarrier barrier{};
     barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER;
@@ -31,37 +24,18 @@ void transition(const gpu::Device& device, VkCommandBuffer commands, VkImage ima
     barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
     barrier.image = image;
     barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
-    device.vk.vkCmdPipelineBarrier(commands, from.stage, to.stage, 0, 0, nullptr, 0, nullptr, 1, &barrier);
+    device.vk.vkCmdPipelineBarrier(commands, from.stages, to.stages, 0, 0, nullptr, 0, nullptr, 1, &barrier);
 }
 
-constexpr ImageAccess kTransferWrite{kTransfer, VK_ACCESS_TRANSFER_WRITE_BIT,
-                                     VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL};
-constexpr ImageAccess kTransferRead{kTransfer, VK_ACCESS_TRANSFER_READ_BIT,
-                                    VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL};
+constexpr gpu::ImageState kCopied{VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, kTransfer,
+                                  VK_ACCESS_TRANSFER_READ_BIT};
 
 } // namespace
-
-void recordImage(const gpu::Device& device, const WindowTable& vk, VkCommandBuffer commands,
-                 const gpu::FrameTargets& targets, VkImage window)
-{
-    transition(device, commands, window, {kTransfer, 0, VK_IMAGE_LAYOUT_UNDEFINED}, kTransferWrite);
-    // texel by texel: a blit converts the order of channels to the window's, which a copy would not
-    const VkExtent2D extent = targets.outputExtent();
-    const VkOffset3D corner{static_cast<int32_t>(extent.width), static_cast<int32_t>(extent.height), 1};
-    const VkImageSubresourceLayers color{VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
-    const VkImageBlit region{color, {{}, corner}, color, {{}, corner}};
-    vk.vkCmdBlitImage(commands, targets.color().handle.get(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, window,
-                      VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &region, VK_FILTER_NEAREST);
-}
-
-void recordWithoutOverlay(const gpu::Device& device, VkCommandBuffer commands, VkImage window)
-{
-    transition(device, commands, window, kTransferWrite, kTransferRead);
-}
 
 void recordReadback(const gpu::Device& device, const WindowTable& vk, VkCommandBuffer commands,
                     VkImage window, VkExtent2D extent, const gpu::Buffer& target)
 {
+    transition(device, commands, window, kDrawnImage, kCopied);
     VkBufferImageCopy region{};
     region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     region.imageExtent = {extent.width, extent.height, 1};
@@ -69,12 +43,13 @@ void recordReadback(const gpu::Device& device, const WindowTable& vk, VkCommandB
                               &region);
     gpu::barrier(device, commands, kTransfer, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT,
                  VK_ACCESS_HOST_READ_BIT);
+    transition(device, commands, window, kCopied, kDrawnImage);
 }
 
 void recordPresentable(const gpu::Device& device, VkCommandBuffer commands, VkImage window)
 {
-    transition(device, commands, window, kTransferRead,
-               {VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, 0, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR});
+    transition(device, commands, window, kDrawnImage,
+               {VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, 0});
 }
 
 } // namespace hearth::viewer

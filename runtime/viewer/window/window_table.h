@@ -12,7 +12,6 @@
     X(vkAcquireNextImageKHR)                                                                                 \
     X(vkAllocateCommandBuffers)                                                                              \
     X(vkBeginCommandBuffer)                                                                                  \
-    X(vkCmdBlitImage)                                                                                        \
     X(vkCmdCopyImageToBuffer)                                                                                \
     X(vkCreateCommandPool)                                                                                   \
     X(vkCreateFence)                                                                                         \

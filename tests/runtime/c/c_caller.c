@@ -534,6 +534,8 @@ hearth_result c_caller_draw(c_caller* caller, hearth_renderer* renderer, hearth_
     description.width = image->width;
     description.height = image->height;
     description.flags = HEARTH_TARGETS_KEEP_VISIBILITY | image->targets_flags;
+    description.colors = image->colors;
+    description.color_count = image->color_count;
     hearth_result result = hearth_targets_create(renderer, &description, &targets);
     if (result == HEARTH_OK)
         result = upload(caller, renderer, pack, image, &scene);

@@ -36,6 +36,8 @@ typedef struct c_image
     uint32_t width, height;
     int in_parts;           /* record the frame in three parts */
     uint32_t targets_flags; /* HEARTH_TARGETS_*, beside KEEP_VISIBILITY */
+    const hearth_image* colors; /* images that the frame may show: it shows the first; or NULL */
+    uint32_t color_count;
 
     uint32_t* color; /* width * height, the caller's array; also below */
     uint32_t* visibility;

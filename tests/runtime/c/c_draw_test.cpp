@@ -6,6 +6,9 @@
 namespace hearth::test
 {
 
+using testing::AllOf;
+using testing::HasSubstr;
+
 TEST_F(CApiTest, drawsTheImageOfTheRenderer)
 {
     const c_image image = drawInC(makeFrame());
@@ -41,6 +44,126 @@ TEST_F(CApiTest, handsOnAllThatAFrameSays)
         const c_image image = drawInC(frame);
         expectEqual(image, drawInCpp(options));
     }
+}
+
+/// Makes images on the device of the C program.
+class CColorTest : public CApiTest
+{
+protected:
+    void SetUp() override
+    {
+        CApiTest::SetUp();
+        const hearth_renderer_description caller = c_caller_description(caller_);
+        auto device = gpu::makeDevice({.get_instance_proc_addr = caller.get_instance_proc_addr,
+                                       .instance = caller.instance,
+                                       .physical_device = caller.physical_device,
+                                       .device = caller.device});
+        ASSERT_TRUE(device.ok());
+        device_ = std::move(*device);
+        arena_ = std::make_unique<gpu::MemoryArena>(device_, 0);
+    }
+
+    void TearDown() override
+    {
+        images_.clear();
+        arena_.reset();
+        CApiTest::TearDown();
+    }
+
+    hearth_image makeColor(VkFormat format, const hearth_image_state& after)
+    {
+        auto image =
+            arena_->createImage({.format = format,
+                                 .extent = {kWidth, kHeight},
+                                 .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
+                                          VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_SAMPLED_BIT});
+        HEARTH_ASSERT(image.ok());
+        images_.push_back(std::move(*image));
+        return {.image = images_.back().handle.get(),
+                .format = format,
+                .before = {VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT, 0},
+                .after = after};
+    }
+
+    gpu::Device device_;
+    std::unique_ptr<gpu::MemoryArena> arena_;
+    std::vector<gpu::Image> images_;
+};
+
+TEST_F(CColorTest, drawsIntoTheCallersImages)
+{
+    hearth_renderer_description description = c_caller_description(caller_);
+    description.color_format = VK_FORMAT_B8G8R8A8_SRGB;
+    recreateRenderer(description);
+    const hearth_image_state drawn{
+        VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
+        VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT};
+    const hearth_image_state sampled{VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                                     VK_PIPELINE_STAGE_VERTEX_SHADER_BIT, VK_ACCESS_SHADER_READ_BIT};
+    for (const hearth_image_state& after : {drawn, sampled})
+    {
+        in_parts_ = after.layout == sampled.layout;
+        colors_ = {makeColor(VK_FORMAT_B8G8R8A8_SRGB, after), makeColor(VK_FORMAT_B8G8R8A8_SRGB, after)};
+        const c_image image = drawInC(makeFrame());
+        for (uint32_t& color : color_)
+            color = (color & 0xFF00FF00u) | (color >> 16 & 255u) | (color & 255u) << 16;
+        expectEqual(image, drawInCpp({}));
+    }
+}
+
+TEST_F(CColorTest, imagesThatFramesCannotShowAreRefused)
+{
+    hearth_renderer_description renderer = c_caller_description(caller_);
+    renderer.color_format = VK_FORMAT_R8_UNORM;
+    hearth_renderer* none = nullptr;
+    EXPECT_EQ(hearth_renderer_create(&renderer, &none, message_, sizeof(message_)), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(message_, AllOf(HasSubstr("color_format"), HasSubstr("B10G11R11_UFLOAT_PACK32")));
+    const hearth_image_state shown{VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_TRANSFER_BIT,
+                                   VK_ACCESS_TRANSFER_READ_BIT};
+    const hearth_image good = makeColor(VK_FORMAT_R8G8B8A8_SRGB, shown);
+    const auto refused = [&](const std::vector<hearth_image>& images, uint32_t count)
+    {
+        hearth_targets_description description = HEARTH_TARGETS_DESCRIPTION_INIT;
+        description.width = kWidth;
+        description.height = kHeight;
+        description.colors = images.empty() ? nullptr : images.data();
+        description.color_count = count;
+        hearth_targets* targets = nullptr;
+        EXPECT_EQ(hearth_targets_create(renderer_, &description, &targets), HEARTH_ERROR_USAGE);
+        EXPECT_EQ(targets, nullptr);
+        return std::string(hearth_last_error(renderer_));
+    };
+    EXPECT_THAT(refused({}, 1), HasSubstr("colors is NULL"));
+    EXPECT_THAT(refused({good}, 0), HasSubstr("color_count is 0"));
+    hearth_image bad = good;
+    bad.image = VK_NULL_HANDLE;
+    EXPECT_THAT(refused({good, bad}, 2), HasSubstr("image 1 of colors is VK_NULL_HANDLE"));
+    bad = good;
+    bad.format = VK_FORMAT_R8G8B8A8_UNORM;
+    EXPECT_THAT(refused({bad}, 1),
+                HasSubstr("has VkFormat 37, and the renderer's color_format is R8G8B8A8_SRGB"));
+    bad = good;
+    bad.after.layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    EXPECT_THAT(refused({bad}, 1), HasSubstr("after.layout"));
+    bad = good;
+    bad.before.stages = VK_PIPELINE_STAGE_HOST_BIT;
+    EXPECT_THAT(refused({good, bad}, 2), HasSubstr("another `before` or `after` than image 0"));
+}
+
+TEST_F(CColorTest, radianceHasNoPhotoFilter)
+{
+    hearth_renderer_description description = c_caller_description(caller_);
+    description.color_format = VK_FORMAT_R16G16B16A16_SFLOAT;
+    description.features = HEARTH_FEATURE_GRADING;
+    recreateRenderer(description);
+    c_image image{};
+    image.scene = HEARTH_SCENE_OPTIONS_INIT;
+    image.frame = makeFrame();
+    image.frame.filter_density = 0.5f;
+    image.width = kWidth;
+    image.height = kHeight;
+    EXPECT_EQ(c_caller_draw(caller_, renderer_, pack_, &image), HEARTH_ERROR_USAGE);
+    EXPECT_THAT(hearth_last_error(renderer_), HasSubstr("ahead of the tone curve"));
 }
 
 TEST_F(CApiTest, bloomsAtAnotherSize)

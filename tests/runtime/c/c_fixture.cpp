@@ -118,6 +118,8 @@ c_image CApiTest::drawInC(const hearth_frame& frame, const hearth_scene_options&
     image.width = kWidth;
     image.height = kHeight;
     image.in_parts = in_parts_ ? 1 : 0;
+    image.colors = colors_.empty() ? nullptr : colors_.data();
+    image.color_count = static_cast<uint32_t>(colors_.size());
     image.color = color_.data();
     image.visibility = visibility_.data();
     EXPECT_EQ(c_caller_draw(caller_, renderer_, pack_, &image), HEARTH_OK) << hearth_last_error(renderer_);

@@ -75,6 +75,7 @@ protected:
     hearth_renderer* renderer_ = nullptr;
     char message_[512] = "";
     std::vector<uint32_t> color_, visibility_;
+    std::vector<hearth_image> colors_; ///< images that drawInC shows, the first of them; none: the library's
 };
 
 } // namespace hearth::test

@@ -317,7 +317,7 @@ TEST_F(CFrameRulesTest, framesThatBreakRulesAreRefused)
                                                                         {{45, 0, 1, 0}, "turbidity"},
                                                                         {{45, 0, 3, 1}, "reserved"}})
         EXPECT_THAT(refused([&](F& f) { f.daylight = &daylight; }), HasSubstr(mention));
-    EXPECT_THAT(refused([](F& f) { f.reserved = 1; }), HasSubstr("reserved"));
+    EXPECT_THAT(refused([](F& f) { f.color_image = 1; }), HasSubstr("color_image"));
     EXPECT_THAT(refused([](F& f) { f.emission_count = 1; }), HasSubstr("emissions is NULL"));
     EXPECT_THAT(refused([&](F& f) { f.emissions = &negative, f.emission_count = 1; }),
                 HasSubstr("emission 0"));

@@ -58,7 +58,8 @@ std::map<std::string, uint32_t> constantIds()
             {"kReflects", shared::kConstantReflects},
             {"kReceivers", shared::kConstantReceivers},
             {"kLocalProbes", shared::kConstantLocalProbes},
-            {"kMaterialFunction", shared::kConstantMaterialFunction}};
+            {"kMaterialFunction", shared::kConstantMaterialFunction},
+            {"kEncodes", shared::kConstantEncodes}};
 }
 
 /// Not a GpuTest: that creates pipelines, and a driver may crash where a shader and a layout differ.
