@@ -73,6 +73,8 @@ HEARTH_CONSTANT uint kSetTables = 0;
 HEARTH_CONSTANT uint kSetOcclusion = 1;  ///< culling
 HEARTH_CONSTANT uint kSetTiles = 1;      ///< material tiles
 HEARTH_CONSTANT uint kSetPickPixels = 1; ///< picks: with the bindings of kSetPixels
+/// Motion vectors, beside the scene: with the bindings of kSetPixels.
+HEARTH_CONSTANT uint kSetMotionPixels = 1;
 /// Debug views of clusters: the attachments, with their bindings.
 HEARTH_CONSTANT uint kSetClusterAttachments = 1;
 

@@ -79,6 +79,25 @@ struct PickPush
     uint height;
 };
 
+/// Motion vector of what was behind the eye, in both components, and the largest of others in one. Pixels,
+/// exact in half floats.
+HEARTH_CONSTANT float kMotionUnseen = 32768.0f;
+HEARTH_CONSTANT float kMaxMotion = 16384.0f;
+
+/// Motion vectors: the frame before with the same targets.
+struct MotionPush
+{
+    Float4 clip_x; ///< of its view; w: its shift less that of this frame, in halves of the image's width
+    Float4 clip_y; ///< w: the same downwards, in halves of its height
+    Float4 clip_w; ///< w unused
+    Float3 eye;    ///< world
+    uint first_instance; ///< row of its instance 0
+    uint pose_rows;      ///< from the rows of a pose to those that it had
+    uint reserved0;
+    uint reserved1;
+    uint reserved2;
+};
+
 /// Listing of proxies that cast shadows.
 struct ListProxiesPush
 {

@@ -441,6 +441,28 @@ hearth_result hearth_record_counters(hearth_scene* scene, VkCommandBuffer comman
                 });
 }
 
+hearth_result hearth_record_motion(hearth_scene* scene, hearth_targets* targets, VkCommandBuffer commands)
+{
+    if (scene == nullptr)
+        return HEARTH_ERROR_USAGE;
+    return call(scene->renderer->message(), __func__,
+                [&]() -> Status
+                {
+                    if (targets == nullptr || commands == VK_NULL_HANDLE)
+                        return usage("targets or commands is NULL");
+                    if (!scene->motion)
+                        return usage("the scene lacks HEARTH_SCENE_MOTION: upload it with that flag");
+                    if (!targets->targets.options().has_motion)
+                        return usage("the targets lack HEARTH_TARGETS_MOTION: create them with that flag");
+                    if (targets->scene.lock() != scene->scene || scene->parts_recorded != kNothing ||
+                        scene->parts_targets != targets)
+                        return usage("the scene's last frame is not a whole one with the targets");
+                    scene->motion->record(scene->renderer->renderer->device(), commands, *scene->scene,
+                                          targets->targets);
+                    return success();
+                });
+}
+
 hearth_result hearth_record_picks(hearth_scene* scene, hearth_targets* targets, VkCommandBuffer commands,
                                   const hearth_pixels* pixels, VkBuffer destination, VkDeviceSize offset)
 {

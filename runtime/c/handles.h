@@ -3,6 +3,7 @@
 #pragma once
 
 #include "runtime/c/call.h"
+#include "runtime/gpu/passes/motion_pass.h"
 #include "runtime/gpu/passes/pick_pass.h"
 #include "runtime/gpu/renderer.h"
 #include "runtime/pack/light_player.h"
@@ -74,6 +75,7 @@ struct hearth_scene
 
     uint32_t prepared_lights = 1u << HEARTH_LIGHTS_PRACTICAL; ///< bit i: light method i
     std::optional<hearth::gpu::PickPass> picks;               ///< once they are prepared
+    std::optional<hearth::gpu::MotionPass> motion;            ///< with HEARTH_SCENE_MOTION
 
     /// Frame that was begun; streamed scenes only.
     uint64_t serial = 0, completed_serial = 0;

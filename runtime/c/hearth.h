@@ -325,6 +325,9 @@ typedef struct hearth_shadow_options
 /* Textures of compressed formats that the device cannot sample are decoded, which takes four times the memory
  * or more, and the time of a load; else they are an error. */
 #define HEARTH_SCENE_DECODE_TEXTURES 1u
+/* 1.8: keep the transforms and poses of the step before, for hearth_record_motion: their tables, 64 bytes an
+ * instance and 96 bytes a joint in each frame in flight, take twice the memory. */
+#define HEARTH_SCENE_MOTION 2u
 
 typedef struct hearth_scene_options
 {
@@ -501,7 +504,8 @@ enum
     HEARTH_TARGETS_STACK = 64,
     HEARTH_TARGETS_PREPASS = 128,
     HEARTH_TARGETS_CLASSIC_PREPASS = 256,
-    HEARTH_TARGETS_ENCODED_PREPASS = 512
+    HEARTH_TARGETS_ENCODED_PREPASS = 512,
+    HEARTH_TARGETS_MOTION = 1024 /* hearth_record_motion may follow a frame; implies KEEP_VISIBILITY */
 };
 
 /* State of an image, as a barrier names it. */
@@ -570,6 +574,9 @@ typedef struct hearth_targets_info
      * and TRANSFER_SRC. Give it back in the state `before`: the next frame may cull against it. With
      * HEARTH_FEATURE_DEPTH; else `image` is VK_NULL_HANDLE. */
     hearth_image depth;
+    /* since 1.8: R16G16_SFLOAT, of hearth_record_motion. Usage COLOR_ATTACHMENT, SAMPLED and TRANSFER_SRC.
+     * With HEARTH_TARGETS_MOTION; else `image` is VK_NULL_HANDLE. */
+    hearth_image motion;
 } hearth_targets_info;
 
 #define HEARTH_IMAGE_INIT                                                                                    \
@@ -581,7 +588,8 @@ typedef struct hearth_targets_info
     }
 #define HEARTH_TARGETS_INFO_INIT                                                                             \
     {                                                                                                        \
-        sizeof(hearth_targets_info), 0, 0, 0, HEARTH_IMAGE_INIT, HEARTH_IMAGE_INIT, 0, 0, HEARTH_IMAGE_INIT  \
+        sizeof(hearth_targets_info), 0, 0, 0, HEARTH_IMAGE_INIT, HEARTH_IMAGE_INIT, 0, 0, HEARTH_IMAGE_INIT, \
+            HEARTH_IMAGE_INIT                                                                                \
     }
 
 HEARTH_API hearth_result hearth_targets_get_info(const hearth_targets* targets, hearth_targets_info* info);
@@ -1461,6 +1469,22 @@ HEARTH_API hearth_result hearth_describe_passes(const hearth_scene* scene, const
  * and this one's does not. The targets have HEARTH_TARGETS_COUNT_MISSING. errors: USAGE. */
 HEARTH_API hearth_result hearth_record_missing(hearth_scene* scene, hearth_targets* targets,
                                                VkCommandBuffer commands);
+
+/* Record the motion vectors of a whole frame (1.8), after it and before the scene's next frame: a pixel of
+ * hearth_targets_info.motion gets the place in the frame before with these targets of what it shows, less its
+ * own place. In pixels, to the right and downwards: added to a pixel, the vector leads to where to read the
+ * frame before. hearth_frame.shift is left out of both frames, so that jitter is no motion. The sky moves as
+ * the camera turns. The vector is (32768, 32768) for what was behind the camera, 0 everywhere in the first
+ * frame of the targets; others are at most 16384 in each direction.
+ * Moves and poses count from step to step of the scene. A step ends before a frame with targets that have
+ * had one in it: draw each of several cameras with HEARTH_TARGETS_MOTION once a step, and pass moves and poses
+ * with the first of them.
+ * Outside a render pass; clobbers graphics state. On tile-based GPUs it costs 12 bytes a pixel: 4 to store
+ * the visibility buffer, 4 to read it, 4 for the vectors. Needs HEARTH_SCENE_MOTION and
+ * HEARTH_TARGETS_MOTION.
+ * errors: USAGE. */
+HEARTH_API hearth_result hearth_record_motion(hearth_scene* scene, hearth_targets* targets,
+                                              VkCommandBuffer commands);
 
 /* Record the page requests of a frame of a scene with a budget, without drawing. Moves nothing. To prefetch a
  * view, record such frames until settled_serial reaches the serial of the first of them. errors: USAGE. */

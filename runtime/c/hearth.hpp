@@ -462,6 +462,10 @@ public:
     {
         return hearth_record_prefetch(get(), targets.get(), commands, &frame);
     }
+    [[nodiscard]] hearth_result recordMotion(Targets& targets, VkCommandBuffer commands)
+    {
+        return hearth_record_motion(get(), targets.get(), commands);
+    }
     [[nodiscard]] hearth_result preparePicks() { return hearth_scene_prepare_picks(get()); }
     [[nodiscard]] hearth_result recordPicks(Targets& targets, VkCommandBuffer commands,
                                             const hearth_pixels& pixels, VkBuffer destination,

@@ -40,7 +40,7 @@ Status check(const hearth_scene_options* options)
     if (options->frames_in_flight < 1 || options->frames_in_flight > gpu::kMaxFramesInFlight)
         return usage("frames_in_flight is not from 1 to " + std::to_string(gpu::kMaxFramesInFlight));
     if (options->max_lights > shared::kMaxLights ||
-        (options->flags & ~uint32_t{HEARTH_SCENE_DECODE_TEXTURES}) != 0)
+        (options->flags & ~uint32_t{HEARTH_SCENE_DECODE_TEXTURES | HEARTH_SCENE_MOTION}) != 0)
         return usage("max_lights is above " + std::to_string(shared::kMaxLights) +
                      ", or flags have a bit that does not exist");
     if (options->memory_budget == 0)
@@ -65,8 +65,20 @@ Result<gpu::SceneOptions> toOptions(const hearth_scene_options& options)
     result.deformation.scratch_bytes = options.skinning_bytes;
     result.max_lights = options.max_lights;
     result.decode_textures = (options.flags & HEARTH_SCENE_DECODE_TEXTURES) != 0;
+    result.keeps_motion = (options.flags & HEARTH_SCENE_MOTION) != 0;
     HEARTH_ASSIGN_OR_RETURN(result.shadows, shadowOptions(options.shadows));
     return result;
+}
+
+Status createMotion(hearth_scene& handle)
+{
+    if (!handle.scene->tables->keeps_motion)
+        return success();
+    const gpu::Renderer& renderer = *handle.renderer->renderer;
+    HEARTH_ASSIGN_OR_RETURN(gpu::MotionPass made,
+                            gpu::MotionPass::create(renderer.device(), renderer.layouts(), *handle.scene));
+    handle.motion.emplace(std::move(made));
+    return success();
 }
 
 Status checkStreamed(const hearth_scene& scene)
@@ -122,6 +134,7 @@ hearth_result hearth_scene_upload(hearth_renderer* renderer, hearth_pack* pack, 
                     made->pack = pack;
                     HEARTH_ASSIGN_OR_RETURN(
                         made->scene, renderer->renderer->upload(pack->pack.view(), commands, scene_options));
+                    HEARTH_TRY(createMotion(*made));
                     ++renderer->scene_count;
                     ++pack->scene_count;
                     *scene = made.release();

@@ -101,6 +101,15 @@ hearth_image makeDepth(const gpu::Image& image)
             .after = {layout, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT}};
 }
 
+/// Return the motion vectors, which a pass behind a frame draws.
+hearth_image makeMotion(const gpu::Image& image)
+{
+    return {.image = image.handle.get(),
+            .format = image.format,
+            .before = {VK_IMAGE_LAYOUT_UNDEFINED, gpu::kMotionReaders, gpu::kMotionReads},
+            .after = {gpu::kMotionLayout, gpu::kMotionReaders, gpu::kMotionReads}};
+}
+
 uint32_t toLightPaths(uint32_t flags)
 {
     constexpr std::pair<uint32_t, gpu::LightPath> kPaths[] = {
@@ -125,7 +134,8 @@ Status check(const hearth_renderer& renderer, const hearth_targets_description& 
     constexpr uint32_t kFlags =
         HEARTH_TARGETS_KEEP_VISIBILITY | HEARTH_TARGETS_SPLIT | HEARTH_TARGETS_COUNT_MISSING |
         HEARTH_TARGETS_BLOOM | HEARTH_TARGETS_DEFERRED | HEARTH_TARGETS_TILE_DEFERRED | HEARTH_TARGETS_STACK |
-        HEARTH_TARGETS_PREPASS | HEARTH_TARGETS_CLASSIC_PREPASS | HEARTH_TARGETS_ENCODED_PREPASS;
+        HEARTH_TARGETS_PREPASS | HEARTH_TARGETS_CLASSIC_PREPASS | HEARTH_TARGETS_ENCODED_PREPASS |
+        HEARTH_TARGETS_MOTION;
     if ((description.flags & ~kFlags) != 0)
         return usage("flags has bits that this version does not know");
     if ((description.output_width == 0) != (description.output_height == 0))
@@ -151,7 +161,8 @@ gpu::TargetOptions toOptions(const hearth_targets_description& description)
                                .may_bloom = (description.flags & HEARTH_TARGETS_BLOOM) != 0,
                                .output = {description.output_width, description.output_height},
                                .colors = toImages(description),
-                               .light_paths = toLightPaths(description.flags)};
+                               .light_paths = toLightPaths(description.flags),
+                               .has_motion = (description.flags & HEARTH_TARGETS_MOTION) != 0};
     if (description.scene == nullptr)
         return options;
     const gpu::Scene& scene = *description.scene->scene;
@@ -230,6 +241,8 @@ hearth_result hearth_targets_get_info(const hearth_targets* targets, hearth_targ
                         info->visibility.image = VK_NULL_HANDLE;
                     if (targets->renderer->renderer->keepsDepth())
                         info->depth = makeDepth(t.depth());
+                    if (t.options().has_motion)
+                        info->motion = makeMotion(t.motion().image());
                     return success();
                 });
 }

@@ -59,6 +59,7 @@ extern const std::span<const uint32_t> tile_materials_comp;
 extern const std::span<const uint32_t> tile_offsets_comp;
 extern const std::span<const uint32_t> tile_lists_comp;
 extern const std::span<const uint32_t> find_picks_comp;
+extern const std::span<const uint32_t> motion_frag;
 extern const std::span<const uint32_t> visibility_vert;
 extern const std::span<const uint32_t> visibility_frag;
 extern const std::span<const uint32_t> visibility_masked_vert;

@@ -54,6 +54,7 @@ Result<FrameTargets> FrameTargets::create(const Device& device, const FramePasse
                          "the device cannot render " + std::to_string(size.width) + "x" +
                              std::to_string(size.height) + " pixels"};
     FrameTargets t(device, extent, options);
+    t.options_.keeps_visibility = options.keeps_visibility || options.has_motion;
     HEARTH_TRY(t.createPost(device, passes, layouts));
     HEARTH_TRY(t.createImages(device, passes));
     HEARTH_TRY(t.createLeavingPasses(device, passes));
@@ -61,6 +62,10 @@ Result<FrameTargets> FrameTargets::create(const Device& device, const FramePasse
     HEARTH_TRY(t.createPyramids(device));
     HEARTH_TRY(t.createTileLists(device));
     HEARTH_TRY(t.createSets(device, layouts));
+    if (options.has_motion)
+    {
+        HEARTH_ASSIGN_OR_RETURN(t.motion_, MotionTargets::create(device, t.arena_, extent));
+    }
     return t;
 }
 

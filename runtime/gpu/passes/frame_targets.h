@@ -7,6 +7,7 @@
 #include "runtime/gpu/frame/frame_parts.h"
 #include "runtime/gpu/frame/frame_passes.h"
 #include "runtime/gpu/passes/gather_targets.h"
+#include "runtime/gpu/passes/motion_targets.h"
 #include "runtime/gpu/post/post_targets.h"
 #include "runtime/gpu/scene/draw_layouts.h"
 #include "runtime/gpu/scene/joined_sets.h"
@@ -58,6 +59,8 @@ struct TargetOptions
     /// includes surfaces_on_tile; with bloom, automatic exposure or an output of another size methods on the
     /// tile ask for `surfaces`.
     uint32_t light_paths = 0;
+    /// MotionPass may follow a frame. Implies keeps_visibility.
+    bool has_motion = false;
 
     bool has(LightPath path) const { return (light_paths & lightPathBit(path)) != 0; }
     /// True if frames with a path have all that it needs.
@@ -152,6 +155,10 @@ public:
     VkDescriptorSet tileSet() const { return tile_set_; }
     /// Set of the passes over visible pixels; with TargetOptions::keeps_visibility or may_split.
     VkDescriptorSet pixelSet() const { return pixel_set_; }
+
+    /// Motion vectors; with TargetOptions::has_motion.
+    MotionTargets& motion() { return *motion_; }
+    const MotionTargets& motion() const { return *motion_; }
 
     /// Gathered light (GI); with TargetOptions::gathers_light.
     GatherTargets& gather() { return *gather_; }
@@ -249,6 +256,7 @@ private:
     shared::OcclusionView pyramid_view_{};
     shared::OcclusionView depth_view_{};
     std::optional<GatherTargets> gather_; ///< with TargetOptions::gathers_light
+    std::optional<MotionTargets> motion_; ///< with TargetOptions::has_motion
 };
 
 } // namespace hearth::gpu

@@ -32,6 +32,23 @@ const SceneFrame& beginSceneFrame(const Scene& scene)
     return frame;
 }
 
+/// Begin a frame of targets with motion vectors. Where they have had one in this step, the step ends: what
+/// the tables have now becomes their earlier state.
+void beginMotion(const Scene& scene, FrameTargets& targets, const shared::FrameView& view)
+{
+    SceneTables& tables = *scene.tables;
+    if (!targets.options().has_motion || !tables.keeps_motion)
+        return;
+    if (targets.motion().step() == tables.step)
+    {
+        ++tables.step;
+        tables.instances.keepEarlier();
+        if (scene.deformation != nullptr)
+            scene.deformation->table.keepEarlier();
+    }
+    targets.motion().beginFrame(view, tables.step);
+}
+
 /// Record the copies of streamed pages, of the flags of their groups, and of textures.
 void recordStream(const Device& device, VkCommandBuffer commands, const Scene& scene,
                   const WordCopyPass& copy_words, WordCopies& copies)
@@ -60,6 +77,8 @@ WordCopies recordFrameUpdate(const Device& device, VkCommandBuffer commands, con
                              FrameTargets& targets, const WordCopyPass& copy_words,
                              const shared::FrameView& view, const FrameChanges& changes)
 {
+    if (changes.draws)
+        beginMotion(scene, targets, view);
     takeMoves(scene, changes.moves);
     takePoses(scene, changes.poses);
     if (changes.daylight != nullptr)

@@ -298,13 +298,13 @@ DeformationLayout makeDeformationLayout(const formats::PackView& pack,
                                          : DeformationLayoutBuilder(pack, bounds, instances).run();
 }
 
-void placeScratch(DeformationLayout& layout, uint64_t bytes)
+void placeScratch(DeformationLayout& layout, uint32_t first_word, uint64_t bytes)
 {
     if (layout.words.empty())
         return;
     shared::DeformationHeader header;
     std::memcpy(&header, layout.words.data(), sizeof(header));
-    header.scratch_word = static_cast<uint32_t>(layout.words.size());
+    header.scratch_word = first_word;
     header.block_words = layout.block_words;
     const uint64_t fitting = layout.block_words == 0 ? 0 : bytes / (layout.block_words * 4);
     header.block_count = static_cast<uint32_t>(std::min(fitting, layout.instanced_clusters));

@@ -68,8 +68,9 @@ DeformationLayout makeDeformationLayout(const formats::PackView& pack,
                                         std::vector<shared::MeshBounds>& bounds,
                                         std::vector<shared::Instance>& instances);
 
-/// Place the scratch blocks after the words: as many as `bytes` holds, and no more than a frame can use.
-void placeScratch(DeformationLayout& layout, uint64_t bytes);
+/// Place the scratch blocks: as many as `bytes` holds, and no more than a frame can use.
+/// first_word  of the buffer; behind the words
+void placeScratch(DeformationLayout& layout, uint32_t first_word, uint64_t bytes);
 
 /// Compute the device data of a pose. False if a number is not finite or does not fit into floats. Allocates
 /// nothing if `rows` was used for this instance before, or for one with at least as many rows.

@@ -112,7 +112,8 @@ Status DrawLayouts::createFrameSets(const Device& device)
     const SetBinding light_bindings[] = {storageBinding(shared::kLightsBuffer, kComputeStage)};
     HEARTH_ASSIGN_OR_RETURN(lights, createSetLayout(device, light_bindings));
 
-    const SetBinding pixel_bindings[] = {textureBinding(shared::kPixelsVisibility, kComputeStage)};
+    const SetBinding pixel_bindings[] = {
+        textureBinding(shared::kPixelsVisibility, kComputeStage | kFragmentStage)};
     HEARTH_ASSIGN_OR_RETURN(pixels, createSetLayout(device, pixel_bindings));
 
     const SetBinding post_bindings[] = {textureBinding(shared::kPostRadiance, kFragmentStage),

@@ -83,7 +83,7 @@ struct DrawLayouts
     UniqueSetLayout joined_clusters;   ///< cluster_view and visibility buffer; with the same
     UniqueSetLayout lit;               ///< litBindings
     UniqueSetLayout lights;            ///< shared::kLights*: passes that list or count lights
-    UniqueSetLayout pixels;            ///< shared::kPixels*: those of them that go over pixels
+    UniqueSetLayout pixels;            ///< shared::kPixels*: those of them that go over pixels, picks, motion
     UniqueSetLayout bricks;            ///< shared::kBricks*
     UniqueSetLayout fresh_light;       ///< shared::kFreshLight*
     UniqueSetLayout gather_point;      ///< shared::kGatherPoint*

@@ -60,6 +60,8 @@ struct SceneOptions
 
     /// MaterialShaders::functions, set by the renderer.
     std::span<const std::string_view> material_functions{};
+    /// Transforms and poses of the step before are kept, for MotionPass: its tables take twice the memory.
+    bool keeps_motion = false;
 };
 
 class SceneShadows;
@@ -84,7 +86,11 @@ struct SceneBuffers
 struct SceneTables
 {
     MirroredTable lighting, instances, inverses, bounds;
-    uint32_t frame = 0; ///< of Scene::frames: the one that is recorded, or was last
+    uint32_t frame = 0;        ///< of Scene::frames: the one that is recorded, or was last
+    bool keeps_motion = false; ///< as SceneOptions
+    /// Number of the step, in which each camera with motion vectors has one frame at most: `instances` and
+    /// the poses keep their state at the end of the step before.
+    uint64_t step = 1;
 };
 
 /// Specialization of a material's shading pipeline: a scene has few different ones.

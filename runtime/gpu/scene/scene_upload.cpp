@@ -45,12 +45,12 @@ public:
 
     /// Make a table with a copy for each frame in flight.
     void makeMirrored(MirroredTable& target, const char* what, uint64_t bytes, uint64_t spare,
-                      VkBufferUsageFlags usage)
+                      VkBufferUsageFlags usage, bool keeps_earlier = false)
     {
-        if (!fits(what, bytes + spare, usage))
+        if (!fits(what, (keeps_earlier ? 2 : 1) * bytes + spare, usage))
             return;
         auto table = MirroredTable::create(scene_.arena, static_cast<uint32_t>(scene_.frames.size()), bytes,
-                                           spare, usage);
+                                           spare, usage, keeps_earlier);
         if (table.ok())
             target = std::move(*table);
         else
@@ -162,7 +162,7 @@ Status createBuffers(const Device& device, const formats::PackView& pack, const 
     const LightBufferLayout& lights = scene.lights->layout();
     f.makeMirrored(t.lighting, "lights", lights.lists, lights.end - lights.lists, kWorkUsage);
     f.makeMirrored(t.instances, "instances", pack.instances().size() * sizeof(shared::Instance), 0,
-                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
+                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, options.keeps_motion);
     f.makeMirrored(t.inverses, "instances", pack.instances().size() * sizeof(shared::InstanceInverse), 0,
                    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
     f.makeMirrored(t.bounds, "mesh bounds", layout.bounds.size() * sizeof(shared::MeshBounds), 0,
@@ -186,7 +186,8 @@ Status createBuffers(const Device& device, const formats::PackView& pack, const 
     if (scene.deformation != nullptr)
         f.makeMirrored(scene.deformation->table, "poses of deformed meshes",
                        layout.deformation.words.size() * sizeof(uint32_t),
-                       scratchWords(layout.deformation) * sizeof(uint32_t), kIndirectUsage);
+                       scratchWords(layout.deformation) * sizeof(uint32_t), kIndirectUsage,
+                       options.keeps_motion);
     if (scene.stream != nullptr)
         f.make(b.group_items, "group items", scene.group_item_count, sizeof(shared::GroupItem), kTable);
     for (SceneFrame& frame : scene.frames)
@@ -342,14 +343,15 @@ Status createSets(const Device& device, const DrawLayouts& layouts, Scene& scene
 
 /// Create the deformation buffer. Its scratch is the smallest of the option, the demand and the device's
 /// binding limit.
-std::unique_ptr<SceneDeformation> makeDeformation(const Device& device, const DeformationOptions& options,
+std::unique_ptr<SceneDeformation> makeDeformation(const Device& device, const SceneOptions& options,
                                                   SceneLayout& layout, uint32_t rigid_group_items)
 {
     auto deformation = std::make_unique<SceneDeformation>();
-    const uint64_t table_bytes = layout.deformation.words.size() * 4;
+    const uint64_t table_words = (options.keeps_motion ? 2 : 1) * layout.deformation.words.size();
     const uint64_t max_bytes = device.limits.maxStorageBufferRange;
-    placeScratch(layout.deformation,
-                 std::min(options.scratch_bytes, max_bytes - std::min(max_bytes, table_bytes)));
+    placeScratch(
+        layout.deformation, static_cast<uint32_t>(table_words),
+        std::min(options.deformation.scratch_bytes, max_bytes - std::min(max_bytes, table_words * 4)));
     const auto first = std::find_if(layout.bins.begin(), layout.bins.end(),
                                     [](const SceneBin& bin) { return bin.deformed; });
     deformation->first_bin = static_cast<uint32_t>(first - layout.bins.begin());
@@ -470,6 +472,7 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
     HEARTH_ASSERT(options.frames_in_flight >= 1 && options.frames_in_flight <= kMaxFramesInFlight);
     auto scene = std::make_unique<Scene>(device);
     scene->tables = std::make_unique<SceneTables>();
+    scene->tables->keeps_motion = options.keeps_motion;
     scene->frames.resize(options.frames_in_flight);
     PoolLayout pool;
     if (options.memory_budget > 0)
@@ -508,7 +511,7 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
                                 pack.receivers().lamps.empty() ? 0 : pack.instances().size()),
         std::move(lighting));
     if (!layout.deformation.words.empty())
-        scene->deformation = makeDeformation(device, options.deformation, layout, group_items.rigid_items);
+        scene->deformation = makeDeformation(device, options, layout, group_items.rigid_items);
     HEARTH_TRY(createBuffers(device, pack, layout, options, *scene));
     HEARTH_TRY(createSets(device, layouts, *scene, layout.material_rows));
     HEARTH_TRY(uploadTables(pack, layout, *scene->staging, *scene));

@@ -20,9 +20,11 @@ public:
     /// copies  frames in flight
     /// bytes   of the table
     /// spare   bytes behind the table in each copy, which the device writes and reads
+    /// keeps_earlier  the table follows once more, ahead of the spare bytes, in an earlier state
     /// errors: device_failed.
     static Result<MirroredTable> create(MemoryArena& arena, uint32_t copies, VkDeviceSize bytes,
-                                        VkDeviceSize spare, VkBufferUsageFlags usage);
+                                        VkDeviceSize spare, VkBufferUsageFlags usage,
+                                        bool keeps_earlier = false);
 
     /// Set the content of all copies, from the front, before any frame is recorded.
     void fill(std::span<const std::byte> bytes);
@@ -35,6 +37,11 @@ public:
     {
         write(row * VkDeviceSize{sizeof(Record)}, std::as_bytes(std::span(&record, 1)));
     }
+
+    /// Bytes from the table to its earlier state; 0: none is kept.
+    VkDeviceSize earlierOffset() const { return earlier_; }
+    /// Make what the table has now its earlier state. Takes time for what has changed since the last call.
+    void keepEarlier();
 
     /// Bring a copy up to date. No frame reads it.
     void update(uint32_t copy);
@@ -52,8 +59,12 @@ private:
         std::vector<Range> stale; ///< of the table; one range of all of it once there are too many
     };
 
-    std::vector<std::byte> table_;
+    static void add(std::vector<Range>& ranges, Range range, VkDeviceSize table_bytes);
+
+    std::vector<std::byte> table_; ///< with its earlier state
     std::vector<Copy> copies_;
+    VkDeviceSize earlier_ = 0;
+    std::vector<Range> changed_; ///< since keepEarlier; as Copy::stale
 };
 
 } // namespace hearth::gpu

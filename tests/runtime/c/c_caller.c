@@ -366,8 +366,8 @@ static void copy_image(const c_caller* caller, const hearth_image* source, const
     barrier.dstAccessMask = source->before.access;
     barrier.oldLayout = VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL;
     barrier.newLayout = source->before.layout;
-    caller->vkCmdPipelineBarrier(caller->commands, VK_PIPELINE_STAGE_TRANSFER_BIT, source->before.stages, 0, 0,
-                                 NULL, 0, NULL, 1, &barrier);
+    caller->vkCmdPipelineBarrier(caller->commands, VK_PIPELINE_STAGE_TRANSFER_BIT, source->before.stages, 0,
+                                 0, NULL, 0, NULL, 1, &barrier);
 }
 
 static void show_host(const c_caller* caller)
@@ -412,7 +412,7 @@ static hearth_result stream(c_caller* caller, hearth_scene* scene, hearth_target
     return hearth_scene_begin_frame(scene, serial, serial - 1);
 }
 
-/* The readback has colour, visibility, counters, picks and depth. */
+/* The readback has colour, visibility, counters, picks, depth and motion vectors. */
 static VkDeviceSize pick_offset(const c_image* image)
 {
     return (VkDeviceSize)image->width * image->height * 8 + sizeof(hearth_frame_counters);
@@ -423,9 +423,14 @@ static VkDeviceSize depth_offset(const c_image* image)
     return pick_offset(image) + (VkDeviceSize)image->width * image->height * sizeof(hearth_pick);
 }
 
-static VkDeviceSize readback_bytes(const c_image* image)
+static VkDeviceSize motion_offset(const c_image* image)
 {
     return depth_offset(image) + (VkDeviceSize)image->width * image->height * sizeof(float);
+}
+
+static VkDeviceSize readback_bytes(const c_image* image)
+{
+    return motion_offset(image) + (VkDeviceSize)image->width * image->height * 4;
 }
 
 static hearth_result record_frame(hearth_scene* scene, hearth_targets* targets, VkCommandBuffer commands,
@@ -468,18 +473,24 @@ static hearth_result record(c_caller* caller, hearth_scene* scene, hearth_target
     hearth_targets_info images = HEARTH_TARGETS_INFO_INIT;
     hearth_result result = hearth_targets_get_info(targets, &images);
     const VkCommandBuffer commands = c_caller_begin(caller);
+    if (result == HEARTH_OK && image->before != NULL)
+        result = hearth_record_frame(scene, targets, commands, image->before);
     if (result == HEARTH_OK)
         result = record_frame(scene, targets, commands, image);
     if (result == HEARTH_OK)
         result = hearth_record_counters(scene, commands, memory->buffer, 2 * image_bytes);
     if (result == HEARTH_OK && image->picks != NULL)
         result = record_picks(scene, targets, commands, image, memory->buffer);
+    if (result == HEARTH_OK && image->motion != NULL)
+        result = hearth_record_motion(scene, targets, commands);
     if (result == HEARTH_OK)
     {
         copy_image(caller, &images.color, image, memory->buffer, 0);
         copy_image(caller, &images.visibility, image, memory->buffer, image_bytes);
         if (image->depth != NULL)
             copy_image(caller, &images.depth, image, memory->buffer, depth_offset(image));
+        if (image->motion != NULL)
+            copy_image(caller, &images.motion, image, memory->buffer, motion_offset(image));
         show_host(caller);
     }
     if (c_caller_submit(caller) != VK_SUCCESS)
@@ -497,6 +508,8 @@ static void take(const readback* memory, c_image* image)
         memcpy(image->picks, memory->mapped + pick_offset(image), image_bytes / 4 * sizeof(hearth_pick));
     if (image->depth != NULL)
         memcpy(image->depth, memory->mapped + depth_offset(image), image_bytes / 4 * sizeof(float));
+    if (image->motion != NULL)
+        memcpy(image->motion, memory->mapped + motion_offset(image), image_bytes);
 }
 
 static hearth_result draw_scene(c_caller* caller, hearth_scene* scene, hearth_targets* targets,

@@ -41,8 +41,10 @@ typedef struct c_image
 
     uint32_t* color; /* width * height, the caller's array; also below */
     uint32_t* visibility;
-    hearth_pick* picks; /* or NULL */
-    float* depth;       /* or NULL; needs HEARTH_FEATURE_DEPTH */
+    hearth_pick* picks;         /* or NULL */
+    float* depth;               /* or NULL; needs HEARTH_FEATURE_DEPTH */
+    uint32_t* motion;           /* or NULL: two halves a pixel; needs the flags of motion vectors */
+    const hearth_frame* before; /* or NULL: is drawn first, with the same targets */
     uint64_t ticks[HEARTH_TIMESTAMP_COUNT];
     hearth_frame_counters counters;
     hearth_stream_counters streaming; /* with a budget */

@@ -1,5 +1,6 @@
 // Tests rays, bounds and picked pixels through hearth.h against the images of frames.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/base/half.h"
 #include "runtime/c/hearth.hpp"
 #include "runtime/pack/page_graph.h"
 #include "tests/runtime/c/c_fixture.h"
@@ -305,6 +306,115 @@ TEST_F(CQueriesTest, charactersArePickedInTheirPose)
     EXPECT_GT(seen.size(), poses.size() / 2) << "characters are in view";
     EXPECT_GT(same, covered - covered / 10);
     EXPECT_LE(apart, kMaxEdgePixels);
+}
+
+TEST_F(CQueriesTest, motionVectorsLeadToWhereQueriesFindPoints)
+{
+    hearth_frame before = sourceFrame(), frame = before;
+    hearth_move rest{0, {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}}, move = rest;
+    move.world_from_object[0][3] = 0.125f;
+    before.moves = &rest;
+    frame.moves = &move;
+    before.move_count = frame.move_count = 1;
+    frame.camera.position[1] += 0.25f; // turns and rises
+    frame.shift[0] = 0.01f;
+    std::vector<hearth_pick> picks(kWidth * kHeight);
+    std::vector<uint32_t> motion(picks.size());
+    color_.assign(picks.size(), 0);
+    visibility_.assign(picks.size(), 0);
+    c_image image{};
+    image.scene = HEARTH_SCENE_OPTIONS_INIT;
+    image.scene.flags = HEARTH_SCENE_MOTION;
+    image.frame = frame;
+    image.before = &before;
+    image.width = kWidth;
+    image.height = kHeight;
+    image.targets_flags = HEARTH_TARGETS_MOTION;
+    image.color = color_.data();
+    image.visibility = visibility_.data();
+    image.picks = picks.data();
+    image.motion = motion.data();
+    ASSERT_EQ(c_caller_draw(caller_, renderer_, pack_, &image), HEARTH_OK) << hearth_last_error(renderer_);
+
+    ASSERT_EQ(queries_.place(frame.moves, 1, nullptr, 0, &text_), HEARTH_OK) << text_;
+    size_t moved = 0, still = 0, wrong = 0;
+    for (uint32_t i = 0; i < picks.size(); ++i)
+    {
+        hearth_hit hit{};
+        const uint32_t x = i % kWidth, y = i / kWidth;
+        ASSERT_EQ(queries_.findPick(frame, kWidth, kHeight, x, y, picks[i], hit), HEARTH_OK);
+        if (hit.instance == UINT32_MAX)
+            continue;
+        // the ray of the frame before, through the place to which the vector leads from the pixel less its
+        // frame's shift, passes where the point was
+        const float to_x = static_cast<float>(x) + 0.5f - 0.01f * kWidth / 2;
+        hearth_ray ray{};
+        ASSERT_EQ(hearth_frame_get_ray(&before, kWidth, kHeight,
+                                       to_x + floatFromHalf(static_cast<uint16_t>(motion[i] & 0xFFFFu)),
+                                       static_cast<float>(y) + 0.5f +
+                                           floatFromHalf(static_cast<uint16_t>(motion[i] >> 16)),
+                                       &ray, nullptr, 0),
+                  HEARTH_OK);
+        double offset[3], along = 0, square = 0, apart = 0;
+        for (int axis = 0; axis < 3; ++axis)
+        {
+            const float shift = hit.instance == 0 && axis == 0 ? 0.125f : 0;
+            offset[axis] = double{hit.position[axis]} - double{shift} - double{ray.origin[axis]};
+            along += offset[axis] * double{ray.direction[axis]};
+            square += double{ray.direction[axis]} * double{ray.direction[axis]};
+        }
+        for (int axis = 0; axis < 3; ++axis)
+            apart += std::pow(offset[axis] - along / square * double{ray.direction[axis]}, 2);
+        ++(hit.instance == 0 ? moved : still);
+        // a pixel at a distance of a metre is 8 mm wide
+        wrong += std::sqrt(apart) > 0.0008 * along / std::sqrt(square) ? 1 : 0;
+    }
+    EXPECT_GT(moved, 20u);
+    EXPECT_GT(still, picks.size() / 8);
+    EXPECT_LE(wrong, kMaxEdgePixels);
+}
+
+TEST_F(CQueriesTest, motionVectorsThatCannotBeAreRefused)
+{
+    hearth_targets_description description = HEARTH_TARGETS_DESCRIPTION_INIT;
+    description.width = description.height = 64;
+    hearth_targets *without = nullptr, *targets = nullptr;
+    ASSERT_EQ(hearth_targets_create(renderer_, &description, &without), HEARTH_OK);
+    description.flags = HEARTH_TARGETS_MOTION;
+    ASSERT_EQ(hearth_targets_create(renderer_, &description, &targets), HEARTH_OK);
+    hearth_targets_info info = HEARTH_TARGETS_INFO_INIT;
+    ASSERT_EQ(hearth_targets_get_info(without, &info), HEARTH_OK);
+    EXPECT_EQ(info.motion.image, VkImage{VK_NULL_HANDLE});
+    ASSERT_EQ(hearth_targets_get_info(targets, &info), HEARTH_OK);
+    EXPECT_NE(info.motion.image, VkImage{VK_NULL_HANDLE});
+    EXPECT_NE(info.visibility.image, VkImage{VK_NULL_HANDLE}) << "is implied";
+    EXPECT_EQ(info.motion.format, VK_FORMAT_R16G16_SFLOAT);
+    hearth_scene *plain = nullptr, *scene = nullptr;
+    hearth_scene_options options = HEARTH_SCENE_OPTIONS_INIT;
+    const VkCommandBuffer commands = c_caller_begin(caller_);
+    ASSERT_EQ(hearth_scene_upload(renderer_, pack_, commands, &options, &plain), HEARTH_OK);
+    options.flags = HEARTH_SCENE_MOTION;
+    ASSERT_EQ(hearth_scene_upload(renderer_, pack_, commands, &options, &scene), HEARTH_OK);
+    const hearth_frame frame = makeFrame();
+    const auto refused = [&](hearth_scene* of, hearth_targets* into)
+    {
+        EXPECT_EQ(hearth_record_motion(of, into, commands), HEARTH_ERROR_USAGE);
+        return std::string(hearth_last_error(renderer_));
+    };
+    EXPECT_THAT(refused(plain, targets), HasSubstr("HEARTH_SCENE_MOTION"));
+    EXPECT_THAT(refused(scene, without), HasSubstr("HEARTH_TARGETS_MOTION"));
+    EXPECT_THAT(refused(scene, nullptr), HasSubstr("NULL"));
+    EXPECT_THAT(refused(scene, targets), HasSubstr("last frame"));
+    ASSERT_EQ(hearth_record_frame(scene, targets, commands, &frame), HEARTH_OK);
+    ASSERT_EQ(hearth_record_frame(scene, without, commands, &frame), HEARTH_OK);
+    EXPECT_THAT(refused(scene, targets), HasSubstr("last frame"));
+    ASSERT_EQ(hearth_record_frame(scene, targets, commands, &frame), HEARTH_OK);
+    EXPECT_EQ(hearth_record_motion(scene, targets, commands), HEARTH_OK);
+    ASSERT_EQ(c_caller_submit(caller_), VK_SUCCESS);
+    EXPECT_EQ(hearth_scene_destroy(plain), HEARTH_OK);
+    EXPECT_EQ(hearth_scene_destroy(scene), HEARTH_OK);
+    EXPECT_EQ(hearth_targets_destroy(without), HEARTH_OK);
+    EXPECT_EQ(hearth_targets_destroy(targets), HEARTH_OK);
 }
 
 TEST_F(CQueriesTest, picksThatCannotBeAreRefused)

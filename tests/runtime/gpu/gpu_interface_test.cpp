@@ -1,6 +1,7 @@
 // Tests that shaders and C++ agree about everything that crosses between them: reflects every shader of the
 // renderer and compares it with the layouts, push constants, specialization constants and structs of C++.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "runtime/gpu/passes/motion_pass.h"
 #include "runtime/gpu/passes/pick_pass.h"
 #include "runtime/gpu/receivers/receiver_pass.h"
 #include "runtime/gpu/statistics/cull_statistics_pass.h"
@@ -148,10 +149,11 @@ protected:
     void uploadDeformed(gpu::Renderer& recorded)
     {
         const DeformedScene deformed({.rings = 8}, 1);
-        const auto scene = uploadWith(recorded, deformed.pack(), {.shadows = {.max_maps = 4}});
+        const auto scene = uploadWith(recorded, deformed.pack(), {.shadows = {.max_maps = 4}, .keeps_motion = true});
         prepareLights(recorded, *scene);
         EXPECT_TRUE(gpu::CullStatisticsPass::create(recorded.device(), *scene).ok());
         EXPECT_TRUE(gpu::PickPass::create(recorded.device(), recorded.layouts(), *scene).ok());
+        EXPECT_TRUE(gpu::MotionPass::create(recorded.device(), recorded.layouts(), *scene).ok());
         const auto targets = recorded.createTargets({16, 16}, {.keeps_visibility = true});
         ASSERT_TRUE(targets.ok());
         EXPECT_TRUE(

@@ -85,6 +85,8 @@ std::vector<SharedStruct> pushStructs()
         HEARTH_STRUCT(PageRequestPush, first_item, item_count, first_material, default_material),
         HEARTH_STRUCT(CullStatisticsPush, first_item, item_count, instance_count),
         HEARTH_STRUCT(PickPush, x, y, width, height),
+        HEARTH_STRUCT(MotionPush, clip_x, clip_y, clip_w, eye, first_instance, pose_rows, reserved0,
+                      reserved1, reserved2),
         HEARTH_STRUCT(ListProxiesPush, instance_count),
         HEARTH_STRUCT(SkinningPlanPush, bin_count, first_bin, phase),
         HEARTH_STRUCT(PyramidPush, width, height),
