@@ -31,7 +31,7 @@ HEARTH_FUNCTION uint uvSet(uint sets, uint slot)
     return sets >> (2u * slot) & 3u;
 }
 
-/// Vectors of four parameters that a material has for its function.
+/// Vectors of four parameters that a material has for its function and its motion.
 HEARTH_CONSTANT uint kMaterialParameters = 4;
 
 /// formats::MaterialRecord in the layout of a uniform block.
@@ -50,7 +50,11 @@ struct Material
     uint uv_sets;    ///< two bits each: uvSet()
     /// Two rows for each texture but those of layers; uv = (row0 . (u, v, 1), row1 . (u, v, 1)).
     Float4 uv_rows[10];
-    Float4 parameters[kMaterialParameters]; ///< of its material function
+    Float4 parameters[kMaterialParameters]; ///< of its function and its motion
+    float motion_bound;                     ///< metres in object space
+    uint reserved0;
+    uint reserved1;
+    uint reserved2;
 };
 
 /// Bits of the layers that a material has: formats::hasSpecular(), hasClearcoat() and hasSheen().
@@ -162,7 +166,7 @@ HEARTH_SHARED_END
 
 #ifdef __cplusplus
 // sizes in std140 layout
-static_assert(sizeof(hearth::shared::Material) == 224 + 16 * hearth::shared::kMaterialParameters);
+static_assert(sizeof(hearth::shared::Material) == 240 + 16 * hearth::shared::kMaterialParameters);
 static_assert(sizeof(hearth::shared::MaterialLayers) == 176);
 static_assert(sizeof(hearth::shared::Light) == 96);
 static_assert(sizeof(hearth::shared::Lighting) == 112 + 112 + 64 * (hearth::shared::kLightCascades + 1));

@@ -30,7 +30,9 @@ HEARTH_CONSTANT uint kConstantLocalProbes = 13; ///< 1: the scene has local prob
 HEARTH_CONSTANT uint kConstantMaterialFunction = 14;
 /// 1: the image that a frame shows holds sRGB codes, which the shader computes; 0: its format does, if any.
 HEARTH_CONSTANT uint kConstantEncodes = 15;
-HEARTH_CONSTANT uint kConstantCount = 16;
+/// Number of the material's motion among those of the game, from 1; 0: none.
+HEARTH_CONSTANT uint kConstantMaterialMotion = 16;
+HEARTH_CONSTANT uint kConstantCount = 17;
 
 /// Lights that a pixel evaluates, beside those that every point gets.
 HEARTH_CONSTANT uint kLightListFrame = 0; ///< all of the frame

@@ -189,7 +189,7 @@ enum
     HEARTH_FRAME_ONE_SET = 3 /* as MERGED, with one descriptor set for all that shading binds */
 };
 
-/* Material function of the game (1.8). */
+/* Material function of the game, or motion (1.8). */
 typedef struct hearth_material_function
 {
     const char* name;
@@ -204,12 +204,14 @@ typedef struct hearth_material_module
 } hearth_material_module;
 
 /* Material functions of the game (1.8), as hearth_add_material_shaders() in CMake compiles them; README.md has an
- * example. A material has the function that its extra "hearth_material" names. */
+ * example. A material has the function that its extra "hearth_material" names, and the motion that "hearth_motion" names. */
 typedef struct hearth_material_shaders
 {
     uint32_t function_count;
-    uint32_t module_count;
+    uint32_t motion_count;
     const hearth_material_function* functions;
+    const hearth_material_function* motions; /* of vertices */
+    size_t module_count;
     const hearth_material_module* modules;
     const char* version; /* of the shaders' sources: that of the library */
 } hearth_material_shaders;

@@ -130,11 +130,14 @@ std::optional<gpu::FrameWay> toFrameWay(uint32_t way)
 /// Copy the tables of the game's material functions.
 Result<gpu::MaterialShaders> toMaterialShaders(const hearth_material_shaders& shaders)
 {
-    if (shaders.functions == nullptr || shaders.modules == nullptr || shaders.version == nullptr)
-        return usage("material_shaders has no functions, no modules or no version");
+    if (shaders.functions == nullptr || shaders.motions == nullptr || shaders.modules == nullptr ||
+        shaders.version == nullptr)
+        return usage("material_shaders has no functions, no motions, no modules or no version");
     gpu::MaterialShaders made{.version = shaders.version};
     for (const hearth_material_function& function : std::span(shaders.functions, shaders.function_count))
         made.functions.push_back(function.name);
+    for (const hearth_material_function& motion : std::span(shaders.motions, shaders.motion_count))
+        made.motions.push_back(motion.name);
     for (const hearth_material_module& module : std::span(shaders.modules, shaders.module_count))
         made.modules.push_back({module.name, {module.words, module.word_count}});
     return made;

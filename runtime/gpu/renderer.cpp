@@ -106,11 +106,13 @@ shared::FrameView scaledView(const Scene& scene, const shared::FrameView& view)
 }
 
 /// Pass the moves and changes of the frame to the shadow cache, before the frame is recorded.
-void trackShadows(const Scene& scene, std::span<const InstanceMove> moves)
+void trackShadows(const Scene& scene, std::span<const InstanceMove> moves, const Float4& material_inputs)
 {
-    if (scene.shadows != nullptr)
-        scene.shadows->track(moves, scene.stream == nullptr ? std::span<const pack::ResidentGroups::Change>()
-                                                            : scene.stream->changedGroups());
+    if (scene.shadows == nullptr)
+        return;
+    scene.shadows->trackInputs(material_inputs);
+    scene.shadows->track(moves, scene.stream == nullptr ? std::span<const pack::ResidentGroups::Change>()
+                                                        : scene.stream->changedGroups());
 }
 
 /// True if the frame shows the light of bricks.
@@ -201,6 +203,8 @@ Result<Renderer::DrawPasses> Renderer::createDrawPasses(ShadedOutput output) con
     }
     if (skinning_)
         HEARTH_TRY(draws.visibility.prepareDeformed(device_));
+    for (const uint32_t motion : motions_)
+        HEARTH_TRY(draws.visibility.prepareMotion(device_, *material_shaders_, motion));
     return draws;
 }
 
@@ -270,8 +274,7 @@ Result<std::unique_ptr<Scene>> Renderer::upload(const formats::PackView& pack, V
                                                 const SceneOptions& options)
 {
     SceneOptions own = options;
-    if (material_shaders_ != nullptr)
-        own.material_functions = material_shaders_->functions;
+    own.material_shaders = material_shaders_;
     HEARTH_ASSIGN_OR_RETURN(std::unique_ptr<Scene> scene,
                             uploadScene(device_, layouts_, pack, commands, own));
     if (scene->deformation != nullptr)
@@ -288,6 +291,9 @@ Result<std::unique_ptr<Scene>> Renderer::upload(const formats::PackView& pack, V
         HEARTH_TRY(page_requests_.createSets(device_, *scene));
     if (options.shadows.max_maps > 0)
         HEARTH_TRY(createShadows(pack, options.shadows, commands, *scene));
+    for (const SceneBin& bin : scene->bins)
+        if (bin.motion != 0)
+            HEARTH_TRY(prepareMotion(bin.motion));
     if (scene->bricks != nullptr && !gather_)
     {
         HEARTH_ASSIGN_OR_RETURN(brick_light_, BrickLightPass::create(device_, layouts_));
@@ -330,6 +336,23 @@ Status Renderer::prepareDeformed()
         if (draws)
             HEARTH_TRY(draws->visibility.prepareDeformed(device_));
     }
+    return success();
+}
+
+/// Create the pipelines that draw materials with a motion.
+Status Renderer::prepareMotion(uint32_t motion)
+{
+    motions_.insert(motion);
+    for (std::optional<DrawPasses>& draws : draws_)
+    {
+        if (draws && draws->overdraw)
+            HEARTH_TRY(draws->overdraw->prepareMotion(device_, *material_shaders_, motion));
+        if (draws)
+            HEARTH_TRY(draws->visibility.prepareMotion(device_, *material_shaders_, motion));
+    }
+    for (std::optional<ShadowPass>& pass : shadows_)
+        if (pass)
+            HEARTH_TRY(pass->prepareMotion(device_, *material_shaders_, motion));
     return success();
 }
 
@@ -391,6 +414,12 @@ Status Renderer::prepareLightMethod(Scene& scene, LightMethod method)
 {
     HEARTH_ASSERT(supports(method));
     const LightMethodFacts& facts = lightMethodFacts(method);
+    // lights of what a pixel shows are listed from vertices at rest
+    if (needPixels(facts.areas) && !scene.motions.instances.empty())
+        return Error{
+            Issue::usage, "", "",
+            "materials of the scene have the extra hearth_motion: light methods that list lights for tiles "
+            "or visible cells do not draw them; use another one"};
     HEARTH_TRY(prepareDraws(facts.path));
     HEARTH_TRY(light_lists_.prepare(device_, layouts_, scene, facts.areas));
     for (SceneMaterial& material : scene.materials)
@@ -437,6 +466,8 @@ Status Renderer::prepareOverdraw()
         }
         if (skinning_)
             HEARTH_TRY(overdraw->prepareDeformed(device_));
+        for (const uint32_t motion : motions_)
+            HEARTH_TRY(overdraw->prepareMotion(device_, *material_shaders_, motion));
     }
     return success();
 }
@@ -467,7 +498,7 @@ void Renderer::recordCulled(VkCommandBuffer commands, const Scene& scene, FrameT
     writeTimestamp(device_, commands, input.timestamps, kTimestampBegin);
     const shared::FrameView view = scaledView(scene, input.view);
     targets.chooseColor(input.color_image);
-    trackShadows(scene, input.moves);
+    trackShadows(scene, input.moves, view.material_inputs);
     passes.begin(FrameStep::update);
     WordCopies copies = recordFrameUpdate(device_, commands, scene, targets, copy_words_, view,
                                           {.moves = input.moves,
@@ -533,7 +564,7 @@ void Renderer::recordPrefetch(VkCommandBuffer commands, const Scene& scene, Fram
                               std::span<const InstancePose> poses) const
 {
     HEARTH_ASSERT(scene.stream != nullptr && view.instance_count == scene.instance_count);
-    trackShadows(scene, moves);
+    trackShadows(scene, moves, view.material_inputs);
     PassRecorder passes(device_, commands, passes_.plan({.occlusion = OcclusionCulling::off}), targets);
     passes.begin(FrameStep::update);
     recordFrameUpdate(device_, commands, scene, targets, copy_words_, scene.stream->scaled(view),

@@ -30,6 +30,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <set>
 
 namespace hearth::gpu
 {
@@ -202,6 +203,7 @@ private:
     const DrawPasses& drawPasses(const PassRecorder& passes) const;
 
     Status prepareDeformed();
+    Status prepareMotion(uint32_t motion);
     Status createShadows(const formats::PackView& pack, const ShadowOptions& options,
                          VkCommandBuffer commands, Scene& scene);
     void recordSkinning(VkCommandBuffer commands, const Scene& scene, uint32_t phase) const;
@@ -253,6 +255,7 @@ private:
     std::optional<GatherPass> gather_;          ///< set once a scene has bricks
     ReceiverUpdate receiver_update_ = ReceiverUpdate::compute;
     const MaterialShaders* material_shaders_ = nullptr;
+    std::set<uint32_t> motions_;            ///< of the game, that scenes use
     std::optional<ReceiverPass> receivers_; ///< set once a scene has receivers
     std::optional<SkinningPass> skinning_;  ///< set once a scene has deformed meshes
     MaterialTilesPass material_tiles_;

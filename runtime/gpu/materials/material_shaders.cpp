@@ -19,6 +19,8 @@ namespace
 
 constexpr std::string_view kFunctionExtra = "hearth_material";
 constexpr std::string_view kParametersExtra = "hearth_parameters";
+constexpr std::string_view kMotionExtra = "hearth_motion";
+constexpr std::string_view kBoundExtra = "hearth_motion_bound";
 constexpr uint32_t kSpirvMagic = 0x07230203; ///< first word of every module
 constexpr size_t kNumbers = size_t{4} * shared::kMaterialParameters;
 static_assert(kNumbers == 16, "the message says so");
@@ -39,6 +41,16 @@ std::string listNames(std::span<const std::string_view> names)
     return text;
 }
 
+std::optional<float> readNumber(std::string_view json)
+{
+    const std::string_view text = trim(json);
+    float number = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(number))
+        return std::nullopt;
+    return number;
+}
+
 /// Read a JSON array of finite numbers.
 std::optional<std::vector<float>> readNumbers(std::string_view json)
 {
@@ -54,13 +66,77 @@ std::optional<std::vector<float>> readNumbers(std::string_view json)
         is_last = comma == json.npos;
         const std::string_view text = trim(json.substr(0, comma));
         json = is_last ? std::string_view() : json.substr(comma + 1);
-        float number = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-        if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(number))
+        const std::optional<float> number = readNumber(text);
+        if (!number)
             return std::nullopt;
-        numbers.push_back(number);
+        numbers.push_back(*number);
     }
     return numbers;
+}
+
+/// Material whose extras are read.
+struct NamedMaterial
+{
+    std::string_view extras;
+    std::string_view pack;
+    std::string name;
+
+    Error error(const std::string& detail) const
+    {
+        return {Issue::usage, std::string(pack), "material \"" + name + "\"",
+                "of " + std::string(pack) + " " + detail};
+    }
+};
+
+/// Return the number of the name that an extra has, 0 if there is no such extra.
+Result<uint32_t> findNumber(const NamedMaterial& material, std::string_view extra,
+                            std::span<const std::string_view> names)
+{
+    std::string_view name = pack::findMember(material.extras, extra);
+    if (name.empty())
+        return 0;
+    if (name.size() >= 2 && name.front() == '"')
+        name = name.substr(1, name.size() - 2);
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+        return material.error("has the extra " + std::string(extra) + " \"" + std::string(name) +
+                              "\"; the game has " + (names.empty() ? "none" : listNames(names)));
+    return static_cast<uint32_t>(std::distance(names.begin(), found)) + 1;
+}
+
+Status readParameters(const NamedMaterial& material, MaterialBinding& binding)
+{
+    const std::string_view parameters = pack::findMember(material.extras, kParametersExtra);
+    if (parameters.empty())
+        return success();
+    const std::optional<std::vector<float>> numbers = readNumbers(trim(parameters));
+    if (!numbers || numbers->size() > kNumbers)
+        return material.error("has an extra " + std::string(kParametersExtra) +
+                              " that is no array of at most 16 numbers");
+    for (size_t i = 0; i < numbers->size(); ++i)
+    {
+        Float4& row = binding.parameters[i / 4];
+        (i % 4 == 0 ? row.x : i % 4 == 1 ? row.y : i % 4 == 2 ? row.z : row.w) = (*numbers)[i];
+    }
+    return success();
+}
+
+Result<MaterialBinding> bindMaterial(const NamedMaterial& material, const MaterialShaders& shaders)
+{
+    MaterialBinding binding;
+    HEARTH_ASSIGN_OR_RETURN(binding.function, findNumber(material, kFunctionExtra, shaders.functions));
+    HEARTH_ASSIGN_OR_RETURN(binding.motion, findNumber(material, kMotionExtra, shaders.motions));
+    if (binding.function == 0 && binding.motion == 0)
+        return binding;
+    HEARTH_TRY(readParameters(material, binding));
+    if (binding.motion == 0)
+        return binding;
+    const std::optional<float> bound = readNumber(pack::findMember(material.extras, kBoundExtra));
+    if (!bound || !(*bound > 0))
+        return material.error("has the extra " + std::string(kMotionExtra) + " and no extra " +
+                              std::string(kBoundExtra) + " above 0: the metres that a vertex moves at most");
+    binding.motion_bound = *bound;
+    return binding;
 }
 
 } // namespace
@@ -90,40 +166,19 @@ Result<std::span<const uint32_t>> findModule(const MaterialShaders& shaders, std
                      ": name the light method in hearth_add_material_shaders()"};
 }
 
-Result<MaterialBinding> bindMaterial(const formats::PackView& pack, uint32_t material,
-                                     std::span<const std::string_view> functions)
+Result<std::vector<MaterialBinding>> bindMaterials(const formats::PackView& pack,
+                                                   const MaterialShaders* shaders)
 {
-    MaterialBinding binding;
-    if (functions.empty())
-        return binding;
-    const std::string_view extras = pack.findExtras(formats::ExtrasOwner::material, material);
-    std::string_view name = pack::findMember(extras, kFunctionExtra);
-    if (name.empty())
-        return binding;
-    const std::string object = "material \"" + std::string(pack.text(pack.materials()[material].name)) + "\"";
-    if (name.size() >= 2 && name.front() == '"')
-        name = name.substr(1, name.size() - 2);
-    const auto found = std::find(functions.begin(), functions.end(), name);
-    if (found == functions.end())
-        return Error{Issue::usage, pack.name(), object,
-                     "of " + std::string(pack.name()) + " has the extra " + std::string(kFunctionExtra) +
-                         " \"" + std::string(name) + "\"; the game has the material functions " +
-                         listNames(functions)};
-    binding.function = static_cast<uint32_t>(std::distance(functions.begin(), found)) + 1;
-    const std::string_view parameters = pack::findMember(extras, kParametersExtra);
-    if (parameters.empty())
-        return binding;
-    const std::optional<std::vector<float>> numbers = readNumbers(trim(parameters));
-    if (!numbers || numbers->size() > kNumbers)
-        return Error{Issue::usage, pack.name(), object,
-                     "of " + std::string(pack.name()) + " has an extra " + std::string(kParametersExtra) +
-                         " that is no array of at most 16 numbers"};
-    for (size_t i = 0; i < numbers->size(); ++i)
+    std::vector<MaterialBinding> bindings(pack.materials().size());
+    if (shaders == nullptr)
+        return bindings;
+    for (uint32_t i = 0; i < bindings.size(); ++i)
     {
-        Float4& row = binding.parameters[i / 4];
-        (i % 4 == 0 ? row.x : i % 4 == 1 ? row.y : i % 4 == 2 ? row.z : row.w) = (*numbers)[i];
+        const NamedMaterial material{pack.findExtras(formats::ExtrasOwner::material, i), pack.name(),
+                                     std::string(pack.text(pack.materials()[i].name))};
+        HEARTH_ASSIGN_OR_RETURN(bindings[i], bindMaterial(material, *shaders));
     }
-    return binding;
+    return bindings;
 }
 
 } // namespace hearth::gpu

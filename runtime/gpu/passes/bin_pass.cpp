@@ -76,24 +76,49 @@ Status BinPass::prepareDeformed(const Device& device)
     return success();
 }
 
+Status BinPass::prepareMotion(const Device& device, const MaterialShaders& shaders, uint32_t motion)
+{
+    if (motions_.contains(motion))
+        return success();
+    HEARTH_ASSIGN_OR_RETURN(const auto vertex,
+                            findModule(shaders, casters_ ? "caster.vert" : "visibility.vert"));
+    HEARTH_ASSIGN_OR_RETURN(const auto tested_vertex,
+                            findModule(shaders, casters_ ? "caster_masked.vert" : "visibility_masked.vert"));
+    DrawConstants constants{};
+    constants[shared::kConstantMaterialMotion] = motion;
+    Variants variants;
+    HEARTH_TRY(createPipelines(device, constants, vertex, tested_vertex, variants));
+    motions_.emplace(motion, std::move(variants));
+    return success();
+}
+
 Status BinPass::createPipelines(const Device& device, uint32_t deformed, Variants& variants) const
 {
+    DrawConstants constants{}; // these shaders have no others
+    constants[shared::kConstantDeformed] = deformed;
+    return createPipelines(device, constants, description_.vertex, alpha_tested_.vertex, variants);
+}
+
+/// constants  but for the slices of the pool
+Status BinPass::createPipelines(const Device& device, DrawConstants constants,
+                                std::span<const uint32_t> vertex, std::span<const uint32_t> tested_vertex,
+                                Variants& variants) const
+{
     GraphicsDescription opaque = description_;
+    opaque.vertex = vertex;
     for (const size_t slices : {size_t{0}, size_t{1}})
         for (const Facing facing : {Facing::culled, Facing::mirrored, Facing::doubleSided})
         {
             if (casters_ && facing != Facing::doubleSided)
                 continue;
-            DrawConstants constants{}; // these shaders have no others
             constants[shared::kConstantUsedSlices] = slices == 0 ? 1 : shared::kPoolSlices;
-            constants[shared::kConstantDeformed] = deformed;
             opaque.constants = constants;
             opaque.cull =
                 VkCullModeFlags(facing == Facing::doubleSided ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
             opaque.front_face =
                 facing == Facing::mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE;
             GraphicsDescription tested = opaque;
-            tested.vertex = alpha_tested_.vertex;
+            tested.vertex = tested_vertex;
             tested.fragment = alpha_tested_.fragment;
             const auto index = static_cast<size_t>(facing);
             HEARTH_ASSIGN_OR_RETURN(variants.opaque[slices][index], createGraphicsPipeline(device, opaque));
@@ -101,6 +126,13 @@ Status BinPass::createPipelines(const Device& device, uint32_t deformed, Variant
                                     createGraphicsPipeline(device, tested));
         }
     return success();
+}
+
+const BinPass::Variants& BinPass::findVariants(const SceneBin& bin) const
+{
+    if (bin.motion != 0)
+        return motions_.at(bin.motion);
+    return bin.deformed ? *deformed_ : rigid_;
 }
 
 void BinPass::record(const Device& device, VkCommandBuffer commands, const DrawLayouts& layouts,
@@ -118,12 +150,12 @@ void BinPass::record(const Device& device, VkCommandBuffer commands, const DrawL
         const SceneBin& bin = scene.bins[i];
         if (casters_ && bin.unlit)
             continue;
-        const Variants& variants = bin.deformed ? *deformed_ : rigid_;
+        const Variants& variants = findVariants(bin);
         const Pipelines& pipelines = (bin.alpha_tested ? variants.alpha_tested : variants.opaque)[slices];
         const Facing facing = casters_ ? Facing::doubleSided : bin.facing;
         device.vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS,
                                     pipelines[static_cast<size_t>(facing)].get());
-        if (bin.alpha_tested)
+        if (bin.alpha_tested || bin.motion != 0)
         {
             const VkDescriptorSet set = materialSet(scene, bin.material_row);
             device.vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout,

@@ -6,6 +6,7 @@
 #include "runtime/gpu/frame/frame_passes.h"
 #include "runtime/gpu/scene/scene.h"
 
+#include <map>
 #include <optional>
 
 namespace hearth::gpu
@@ -25,6 +26,10 @@ public:
     /// Create the pipelines of deformed bins, which a scene with deformed meshes needs; call once. errors:
     /// device_failed.
     Status prepareDeformed(const Device& device);
+
+    /// Create the pipelines of bins whose material has a motion of the game, unless they exist. errors: usage
+    /// if the game has not compiled it; device_failed.
+    Status prepareMotion(const Device& device, const MaterialShaders& shaders, uint32_t motion);
 
     /// Record inside the subpass, with viewport and scissor set. Clobbers the graphics state.
     /// view   culled view of the scene's frame
@@ -47,12 +52,16 @@ private:
         Pipelines alpha_tested[2];
     };
     Status createPipelines(const Device& device, uint32_t deformed, Variants& variants) const;
+    Status createPipelines(const Device& device, DrawConstants constants, std::span<const uint32_t> vertex,
+                           std::span<const uint32_t> tested_vertex, Variants& variants) const;
+    const Variants& findVariants(const SceneBin& bin) const;
 
     bool casters_ = false; ///< unlit bins are not drawn, all others as Facing::doubleSided
     GraphicsDescription description_{};
     Stages alpha_tested_{};
     Variants rigid_;
-    std::optional<Variants> deformed_; ///< set once a scene has deformed meshes
+    std::optional<Variants> deformed_;     ///< set once a scene has deformed meshes
+    std::map<uint32_t, Variants> motions_; ///< by MaterialBinding::motion
 };
 
 } // namespace hearth::gpu

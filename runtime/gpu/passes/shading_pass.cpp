@@ -81,7 +81,7 @@ Result<std::span<const uint32_t>> ShadingPass::findWords(const shaders::VariedSh
                                                          const ShadingVariant& variant) const
 {
     const shaders::Variant reading = shaderVariant(way_);
-    if (variant.function == 0)
+    if (variant.function == 0 && variant.motion == 0)
         return shader[reading];
     HEARTH_ASSERT(functions_ != nullptr);
     return findModule(*functions_, shaders::fileName(shader, reading));
@@ -135,6 +135,7 @@ DrawConstants ShadingPass::drawConstants(const ShadingVariant& variant, bool res
     constants[shared::kConstantLightList] = variant.light_list;
     constants[shared::kConstantReceivers] = variant.receivers;
     constants[shared::kConstantMaterialFunction] = variant.function;
+    constants[shared::kConstantMaterialMotion] = variant.motion;
     return constants;
 }
 

@@ -93,7 +93,7 @@ Status ShadowPass::createMaps(const Device& device, const formats::PackView& pac
                               VkCommandBuffer commands, Scene& scene) const
 {
     HEARTH_ASSIGN_OR_RETURN(scene.shadows,
-                            SceneShadows::create(device, render_pass_, pack, scene.bounds,
+                            SceneShadows::create(device, render_pass_, pack, scene.bounds, scene.motions,
                                                  scene.lights->layout().capacity, options, depth));
     const SceneShadows& shadows = *scene.shadows;
     if (scene.deformation != nullptr)

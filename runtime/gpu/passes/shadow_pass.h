@@ -19,6 +19,12 @@ public:
     /// Create the pipelines for scenes with deformed meshes; call once.
     Status prepareDeformed(const Device& device) { return casters_.prepareDeformed(device); }
 
+    /// As BinPass::prepareMotion.
+    Status prepareMotion(const Device& device, const MaterialShaders& shaders, uint32_t motion)
+    {
+        return casters_.prepareMotion(device, shaders, motion);
+    }
+
     /// Create the pipeline for scenes whose proxies cast shadows; call once.
     Status prepareProxies(const Device& device);
 

@@ -2,8 +2,8 @@
 #include "runtime/gpu/materials/material_shaders.h"
 #include "runtime/gpu/scene/scene.h"
 #include "runtime/gpu/scene/scene_shading.h"
-#include "runtime/gpu/textures/streamed_textures.h"
 #include "runtime/gpu/scene/texture_upload.h"
+#include "runtime/gpu/textures/streamed_textures.h"
 
 #include <algorithm>
 #include <cstring>
@@ -131,7 +131,7 @@ void writeMaterialTextures(const Device& device, const Scene& scene, size_t row,
 }
 
 Status uploadMaterials(const Device& device, const DrawLayouts& layouts, const formats::PackView& pack,
-                       std::span<const std::string_view> functions, Uploader& uploader, Scene& scene)
+                       std::span<const MaterialBinding> bindings, Uploader& uploader, Scene& scene)
 {
     const std::vector<LayeredMaterial> materials = readMaterials(pack);
 
@@ -160,12 +160,10 @@ Status uploadMaterials(const Device& device, const DrawLayouts& layouts, const f
     for (size_t row = 0; row < materials.size(); ++row)
     {
         shared::Material material = makeMaterial(materials[row]);
-        MaterialBinding binding;
-        if (row < pack.materials().size()) // the last one is the default material
-        {
-            HEARTH_ASSIGN_OR_RETURN(binding, bindMaterial(pack, static_cast<uint32_t>(row), functions));
-        }
+        // the last one is the default material
+        const MaterialBinding binding = row < bindings.size() ? bindings[row] : MaterialBinding{};
         std::copy(binding.parameters.begin(), binding.parameters.end(), std::begin(material.parameters));
+        material.motion_bound = binding.motion_bound;
         std::memcpy(mapped.data() + row * stride, &material, sizeof(material));
         SceneMaterial entry;
         entry.variant = {.used_slices = scene.used_slices,
@@ -173,7 +171,8 @@ Status uploadMaterials(const Device& device, const DrawLayouts& layouts, const f
                          .uv_sets = material.uv_sets,
                          .unlit = (material.flags & formats::kMaterialUnlit) != 0 ? 1u : 0u,
                          .layers = layerBits(materials[row].layers),
-                         .function = binding.function};
+                         .function = binding.function,
+                         .motion = binding.motion};
         BlockOffsets offsets{row * stride, neutral};
         if (entry.variant.layers != 0)
         {

@@ -58,8 +58,7 @@ struct SceneOptions
     /// Textures of compressed formats that the device cannot sample are decoded; else they are an error.
     bool decode_textures = false;
 
-    /// MaterialShaders::functions, set by the renderer.
-    std::span<const std::string_view> material_functions{};
+    const MaterialShaders* material_shaders = nullptr; ///< of the renderer, which sets it
     /// Transforms and poses of the step before are kept, for MotionPass: its tables take twice the memory.
     bool keeps_motion = false;
 };
@@ -109,6 +108,7 @@ struct ShadingVariant
     uint32_t receivers = 0;       ///< 1: the scene has receivers
     uint32_t local_probes = 0;    ///< 1: the scene has local probes
     uint32_t function = 0;        ///< MaterialBinding::function
+    uint32_t motion = 0;          ///< MaterialBinding::motion
     uint32_t light_list = shared::kLightListCells;
     friend auto operator<=>(const ShadingVariant&, const ShadingVariant&) = default;
 };
@@ -172,6 +172,7 @@ struct Scene
     std::unique_ptr<SceneSurroundings> surroundings; ///< scenes with baked surroundings only
     std::unique_ptr<SceneReceivers> receivers;       ///< scenes with receivers only
     std::vector<SceneBin> bins;
+    VertexMotions motions;                          ///< without the clusters
     std::vector<formats::InstanceRecord> instances; ///< as loaded
     uint32_t instance_count = 0;
     uint32_t item_count = 0;
@@ -242,9 +243,10 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
                                            const SceneOptions& options);
 
 /// Upload the images of the materials, and allocate one descriptor set per row of the material table. Needs
-/// scene.pool and scene.used_slices. Materials that name one of `functions` get it.
+/// scene.pool and scene.used_slices.
+/// bindings  of the pack's materials
 Status uploadMaterials(const Device& device, const DrawLayouts& layouts, const formats::PackView& pack,
-                       std::span<const std::string_view> functions, Uploader& uploader, Scene& scene);
+                       std::span<const MaterialBinding> bindings, Uploader& uploader, Scene& scene);
 
 /// Write the textures of a material into a set of it.
 void writeMaterialTextures(const Device& device, const Scene& scene, size_t row, VkDescriptorSet set);

@@ -4,6 +4,7 @@
 #include "formats/scene/lit_material.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <string>
@@ -23,6 +24,7 @@ struct BinKey
 {
     bool deformed; // first member: bins of deformed instances are the last
     bool alpha_tested;
+    uint32_t motion;
     uint32_t material_row;
     Facing facing;
     bool unlit;
@@ -42,15 +44,21 @@ Error limitError(const formats::PackView& pack, const std::string& detail)
     return {Issue::device_limit, pack.name(), "", detail};
 }
 
-BinKey makeBinKey(const formats::PackView& pack, bool deformed, uint32_t material)
+BinKey makeBinKey(const formats::PackView& pack, std::span<const MaterialBinding> bindings, bool deformed,
+                  uint32_t material)
 {
     if (material == kInvalidIndex)
-        return {deformed, false, 0, Facing::culled, false};
+        return {deformed, false, 0, 0, Facing::culled, false};
     const formats::MaterialRecord& record = pack.materials()[material];
     const bool tested = record.alpha_mode != static_cast<uint32_t>(formats::AlphaMode::opaque);
     const bool two_sided = (record.flags & formats::kMaterialDoubleSided) != 0;
-    return {deformed, tested, tested ? materialRow(pack, material) : 0,
-            two_sided ? Facing::doubleSided : Facing::culled, !formats::isLit(record)};
+    const uint32_t motion = bindings.empty() ? 0 : bindings[material].motion;
+    return {deformed,
+            tested,
+            motion,
+            tested || motion != 0 ? materialRow(pack, material) : 0,
+            two_sided ? Facing::doubleSided : Facing::culled,
+            !formats::isLit(record)};
 }
 
 /// Per mesh: 1 if the chunk DMSH describes it.
@@ -63,13 +71,14 @@ std::vector<uint8_t> findDeformedMeshes(const formats::PackView& pack)
 }
 
 /// Append the clusters of a mesh to the order, stably sorted by key.
-std::vector<ClusterRun> orderMesh(const formats::PackView& pack, const formats::MeshRecord& mesh,
-                                  bool deformed, std::vector<uint32_t>& order)
+std::vector<ClusterRun> orderMesh(const formats::PackView& pack, std::span<const MaterialBinding> bindings,
+                                  const formats::MeshRecord& mesh, bool deformed,
+                                  std::vector<uint32_t>& order)
 {
     std::vector<std::pair<BinKey, uint32_t>> clusters;
     clusters.reserve(mesh.clusters.count);
     for (uint32_t c = mesh.clusters.first; c < mesh.clusters.first + mesh.clusters.count; ++c)
-        clusters.emplace_back(makeBinKey(pack, deformed, pack.clusters()[c].material), c);
+        clusters.emplace_back(makeBinKey(pack, bindings, deformed, pack.clusters()[c].material), c);
     std::stable_sort(clusters.begin(), clusters.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
 
@@ -86,7 +95,9 @@ std::vector<ClusterRun> orderMesh(const formats::PackView& pack, const formats::
 
 void appendItems(uint32_t instance, const ClusterRun& run, std::vector<shared::WorkItem>& items)
 {
-    const uint32_t flags = run.key.facing == Facing::doubleSided ? shared::kItemDoubleSided : 0;
+    // motions turn triangles: a normal cone says nothing
+    const uint32_t flags =
+        run.key.facing == Facing::doubleSided || run.key.motion != 0 ? shared::kItemDoubleSided : 0;
     for (uint32_t done = 0; done < run.count; done += shared::kWorkItemClusters)
         items.push_back({.instance = instance,
                          .first = run.first + done,
@@ -95,13 +106,15 @@ void appendItems(uint32_t instance, const ClusterRun& run, std::vector<shared::W
 }
 
 /// Cut the clusters of every instance into work items and gather the items bin by bin.
-Status makeWorkList(const formats::PackView& pack, SceneLayout& layout)
+Status makeWorkList(const formats::PackView& pack, std::span<const MaterialBinding> bindings,
+                    SceneLayout& layout)
 {
     std::vector<std::vector<ClusterRun>> runs_of_mesh;
     runs_of_mesh.reserve(pack.meshes().size());
     const std::vector<uint8_t> deformed = findDeformedMeshes(pack);
     for (size_t mesh = 0; mesh < deformed.size(); ++mesh)
-        runs_of_mesh.push_back(orderMesh(pack, pack.meshes()[mesh], deformed[mesh] != 0, layout.order));
+        runs_of_mesh.push_back(
+            orderMesh(pack, bindings, pack.meshes()[mesh], deformed[mesh] != 0, layout.order));
 
     // an item and its result are 16 and 20 bytes, and every device can bind 128 MiB
     constexpr uint64_t kMaxItems = uint64_t{6} << 20;
@@ -129,6 +142,7 @@ Status makeWorkList(const formats::PackView& pack, SceneLayout& layout)
     {
         layout.bins.push_back(
             {key.alpha_tested,
+             key.motion,
              key.material_row,
              key.facing,
              key.unlit,
@@ -137,6 +151,77 @@ Status makeWorkList(const formats::PackView& pack, SceneLayout& layout)
         layout.rigid_items += key.deformed ? 0 : static_cast<uint32_t>(items.size());
         layout.items.insert(layout.items.end(), items.begin(), items.end());
     }
+    return success();
+}
+
+/// Grow the box of a cluster by steps of its grid to each side.
+void growBox(formats::ClusterRecord& cluster, uint32_t steps)
+{
+    uint64_t sizes[3];
+    for (size_t axis = 0; axis < 3; ++axis)
+    {
+        cluster.base[axis] -= static_cast<int32_t>(steps);
+        sizes[axis] = (uint64_t{cluster.extent[axis]} << cluster.extent_shift) + 2 * uint64_t{steps};
+    }
+    while ((std::max({sizes[0], sizes[1], sizes[2]}) + (uint64_t{1} << cluster.extent_shift) - 1) >>
+           cluster.extent_shift > 0xFFFF)
+        cluster.extent_shift += 1;
+    for (size_t axis = 0; axis < 3; ++axis)
+        cluster.extent[axis] = static_cast<uint16_t>(
+            (sizes[axis] + (uint64_t{1} << cluster.extent_shift) - 1) >> cluster.extent_shift);
+}
+
+/// Let the bounds of meshes hold what their materials move, and find the instances that move. The bounds of a
+/// mesh grow as one, so that the spheres of its groups still contain those of finer ones.
+Status addMotions(const formats::PackView& pack, std::span<const MaterialBinding> bindings,
+                  SceneLayout& layout)
+{
+    const std::vector<uint8_t> deformed = findDeformedMeshes(pack);
+    std::vector<float> reaches(pack.meshes().size(), 0);
+    bool moves = false;
+    for (size_t mesh = 0; mesh < reaches.size(); ++mesh)
+    {
+        const formats::Range clusters = pack.meshes()[mesh].clusters;
+        for (const formats::ClusterRecord& cluster : formats::recordsInRange(pack.clusters(), clusters))
+        {
+            if (cluster.material == kInvalidIndex || bindings[cluster.material].motion == 0)
+                continue;
+            if (deformed[mesh] != 0)
+                return Error{Issue::usage, pack.name(),
+                             "material \"" + std::string(pack.text(pack.materials()[cluster.material].name)) +
+                                 "\"",
+                             "has the extra hearth_motion, and a mesh that clips or poses deform uses it"};
+            reaches[mesh] = std::max(reaches[mesh], bindings[cluster.material].motion_bound);
+            moves = true;
+        }
+    }
+    if (!moves)
+        return success();
+    VertexMotions& motions = layout.motions;
+    motions.reaches = std::move(reaches);
+    motions.clusters.assign(pack.clusters().begin(), pack.clusters().end());
+    for (size_t mesh = 0; mesh < motions.reaches.size(); ++mesh)
+        if (const float reach = motions.reaches[mesh]; reach > 0)
+        {
+            const formats::MeshRecord& record = pack.meshes()[mesh];
+            const double steps = std::ceil(double{reach} / double{record.grid_step}) + 1;
+            constexpr double kMaxSteps = 1 << 24; // as far as a grid reaches
+            if (steps > kMaxSteps)
+                return Error{Issue::usage, pack.name(),
+                             "mesh \"" + std::string(pack.text(record.name)) + "\"",
+                             "is too small for the extra hearth_motion_bound of its materials"};
+            for (uint32_t c = record.clusters.first; c < record.clusters.first + record.clusters.count; ++c)
+                growBox(motions.clusters[c], static_cast<uint32_t>(steps));
+            const Float3 grown = Float3{1, 1, 1} * static_cast<float>(steps * double{record.grid_step});
+            layout.bounds[mesh].box_min = layout.bounds[mesh].box_min - grown;
+            layout.bounds[mesh].box_max = layout.bounds[mesh].box_max + grown;
+        }
+    for (uint32_t i = 0; i < pack.instances().size(); ++i)
+        if (motions.reaches[pack.instances()[i].mesh] > 0)
+        {
+            layout.instances[i].flags |= shared::kInstanceMoved; // casters that move
+            motions.instances.push_back(i);
+        }
     return success();
 }
 
@@ -209,7 +294,8 @@ Result<SceneLayout> makeSceneLayout(const formats::PackView& pack)
     return makeSceneLayout(pack, std::move(pool));
 }
 
-Result<SceneLayout> makeSceneLayout(const formats::PackView& pack, PoolLayout pool)
+Result<SceneLayout> makeSceneLayout(const formats::PackView& pack, PoolLayout pool,
+                                    std::span<const MaterialBinding> bindings)
 {
     SceneLayout layout;
     layout.pool = std::move(pool);
@@ -219,12 +305,14 @@ Result<SceneLayout> makeSceneLayout(const formats::PackView& pack, PoolLayout po
     layout.draws.reserve(pack.clusters().size());
     for (uint32_t c = 0; c < pack.clusters().size(); ++c)
         layout.draws.push_back(makeClusterDraw(pack, c, layout.pool.page_addresses[pack.clusters()[c].page]));
-    HEARTH_TRY(makeWorkList(pack, layout));
+    HEARTH_TRY(makeWorkList(pack, bindings, layout));
     layout.bounds = shared::makeMeshBounds(pack.meshes(), pack.clusters());
     layout.instances.resize(pack.instances().size());
     if (!layout.instances.empty())
         std::memcpy(static_cast<void*>(layout.instances.data()), pack.instances().data(),
                     pack.instances().size_bytes());
+    if (!bindings.empty())
+        HEARTH_TRY(addMotions(pack, bindings, layout));
     layout.deformation = makeDeformationLayout(pack, layout.bounds, layout.instances);
     layout.inverses.reserve(pack.instances().size());
     for (const formats::InstanceRecord& instance : pack.instances())

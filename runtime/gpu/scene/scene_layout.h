@@ -6,6 +6,7 @@
 #include "formats/pack/pack_view.h"
 #include "runtime/frame/frame.h"
 #include "runtime/frame/proxy_casters.h"
+#include "runtime/gpu/materials/material_shaders.h"
 #include "runtime/gpu/scene/deformation_layout.h"
 #include "runtime/gpu/scene/pool_layout.h"
 
@@ -25,11 +26,20 @@ enum class Facing : uint8_t
 struct SceneBin
 {
     bool alpha_tested = false; ///< the material's alpha texture discards pixels
-    uint32_t material_row = 0; ///< of an alpha-tested material; 0 for other bins
+    uint32_t motion = 0;       ///< MaterialBinding::motion
+    uint32_t material_row = 0; ///< of an alpha-tested material, or one with a motion; 0 for other bins
     Facing facing = Facing::culled;
     bool unlit = false;    ///< casts no shadow: a sky dome would block the sun
     bool deformed = false; ///< clusters of deformed instances
     shared::Bin items{};
+};
+
+/// Reach of materials that move vertices. All empty if there are none.
+struct VertexMotions
+{
+    std::vector<float> reaches;                   ///< per mesh: metres in object space, 0 if it does not move
+    std::vector<formats::ClusterRecord> clusters; ///< of the pack, whose boxes hold what moves
+    std::vector<uint32_t> instances;              ///< that move
 };
 
 struct SceneLayout
@@ -49,6 +59,7 @@ struct SceneLayout
     uint64_t instanced_clusters = 0;
     uint64_t proxy_chunks = 0;  ///< of the proxies of all instances
     uint32_t material_rows = 0; ///< materials of the pack, then the default material
+    VertexMotions motions;
 };
 
 /// Return the row of the material table for a material index of the pack, which may be kInvalidIndex.
@@ -65,9 +76,12 @@ struct GroupItems
 };
 GroupItems makeGroupItems(const formats::PackView& pack);
 
-/// Compute the layout. Clusters of pages without a place get a meaningless address. errors: device_limit if
-/// the scene exceeds the limits that every Vulkan 1.1 device supports.
-Result<SceneLayout> makeSceneLayout(const formats::PackView& pack, PoolLayout pool);
+/// Compute the layout. Clusters of pages without a place get a meaningless address.
+/// bindings  of the materials; or empty: none has a motion
+/// errors: device_limit if the scene exceeds the limits that every Vulkan 1.1 device supports; usage if a
+/// motion is to move vertices of a deformed mesh.
+Result<SceneLayout> makeSceneLayout(const formats::PackView& pack, PoolLayout pool,
+                                    std::span<const MaterialBinding> bindings = {});
 
 /// Let the proxies of a pack cast the shadows of its meshes. Bounds of these meshes then contain the proxies.
 void addProxyCasters(const formats::PackView& pack, SceneLayout& layout);

@@ -51,13 +51,15 @@ ShadowDepthChoice SceneShadows::chooseDepth(const formats::PackView& pack, const
 
 Result<std::unique_ptr<SceneShadows>> SceneShadows::create(const Device& device, VkRenderPass render_pass,
                                                            const formats::PackView& pack, const Box3& bounds,
-                                                           uint32_t max_lights, const ShadowOptions& options,
+                                                           const VertexMotions& motions, uint32_t max_lights,
+                                                           const ShadowOptions& options,
                                                            const ShadowDepthChoice& depth)
 {
     HEARTH_ASSERT(options.max_maps <= shared::kMaxShadowMaps && options.splits <= kMaxSplits &&
                   options.error_bias >= 1 && options.spot_near > 0);
     HEARTH_TRY(checkLimits(device, options));
-    std::unique_ptr<SceneShadows> shadows(new SceneShadows(device, pack, max_lights, options, depth));
+    std::unique_ptr<SceneShadows> shadows(
+        new SceneShadows(device, pack, motions, max_lights, options, depth));
     SceneShadows& s = *shadows;
     s.bounds_ = bounds;
     for (const shared::Light& light : makeLighting(pack).lights)
@@ -127,6 +129,15 @@ void SceneShadows::track(std::span<const InstanceMove> moves,
 {
     cache_.move(moves);
     cache_.publish(groups);
+}
+
+void SceneShadows::trackInputs(const Float4& inputs)
+{
+    const bool same = inputs_ && inputs_->x == inputs.x && inputs_->y == inputs.y && inputs_->z == inputs.z &&
+                      inputs_->w == inputs.w;
+    if (!same)
+        cache_.disturb(motions_.instances);
+    inputs_ = inputs;
 }
 
 void SceneShadows::change(uint32_t slot, float luminance)

@@ -39,14 +39,19 @@ public:
     /// render_pass  of a ShadowPass of these depths
     /// pack         of the scene
     /// max_lights   slots of lights
+    /// motions      of the scene; outlive the shadows
     /// errors: device_limit, device_failed.
     static Result<std::unique_ptr<SceneShadows>> create(const Device& device, VkRenderPass render_pass,
                                                         const formats::PackView& pack, const Box3& bounds,
-                                                        uint32_t max_lights, const ShadowOptions& options,
+                                                        const VertexMotions& motions, uint32_t max_lights,
+                                                        const ShadowOptions& options,
                                                         const ShadowDepthChoice& depth);
 
     /// Pass the moves and the streamed groups of a frame, drawn or only prefetched, to the cache.
     void track(std::span<const InstanceMove> moves, std::span<const pack::ResidentGroups::Change> groups);
+
+    /// Pass the inputs of materials to the cache, by which vertices move.
+    void trackInputs(const Float4& inputs);
 
     /// Set the luminance of a light's intensity without flicker, by which lights are ranked, from this frame
     /// on.
@@ -100,13 +105,14 @@ private:
         UniqueImageView view;
         UniqueFramebuffer framebuffer;
     };
-    SceneShadows(const Device& device, const formats::PackView& pack, uint32_t max_lights,
-                 const ShadowOptions& options, const ShadowDepthChoice& depth)
+    SceneShadows(const Device& device, const formats::PackView& pack, const VertexMotions& motions,
+                 uint32_t max_lights, const ShadowOptions& options, const ShadowDepthChoice& depth)
         : options_(options),
           depth_(depth),
           filters_(depth.depth == ShadowDepth::d16 ? device.filters_d16 : device.filters_d32),
           chosen_(max_lights),
-          cache_(pack, options),
+          motions_(motions),
+          cache_(pack, options, motions.reaches),
           arena_(device, 0)
     {
         options_.depth = depth.depth;
@@ -130,6 +136,8 @@ private:
     std::vector<ShadowCaster> projections_; ///< of the chosen lights, in the last frame
     size_t pack_sphere_count_ = 0;
     std::vector<ShadowSphere> spheres_; ///< of the pack, then of the frame
+    const VertexMotions& motions_;
+    std::optional<Float4> inputs_; ///< of materials, in the last frame
     ShadowCache cache_;
     ShadowPlan plan_;
     ShadowStatistics statistics_;

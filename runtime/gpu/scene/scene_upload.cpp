@@ -204,7 +204,8 @@ Status createBuffers(const Device& device, const formats::PackView& pack, const 
 }
 
 /// Groups of the pack; groups of pages without a place are absent.
-std::vector<shared::Group> makeGroups(const formats::PackView& pack, const PoolLayout& pool)
+std::vector<shared::Group> makeGroups(const formats::PackView& pack, const PoolLayout& pool,
+                                      const VertexMotions& motions)
 {
     std::vector<uint8_t> resident_pages;
     for (const uint32_t address : pool.page_addresses)
@@ -215,6 +216,12 @@ std::vector<shared::Group> makeGroups(const formats::PackView& pack, const PoolL
         std::memcpy(static_cast<void*>(groups.data()), pack.groups().data(), pack.groups().size_bytes());
     for (size_t group = 0; group < groups.size(); ++group)
         groups[group].absent = resident[group] == 0 ? 1 : 0;
+    for (size_t mesh = 0; mesh < motions.reaches.size(); ++mesh)
+    {
+        const formats::Range range = pack.meshes()[mesh].groups;
+        for (uint32_t group = range.first; group < range.first + range.count; ++group)
+            groups[group].sphere_radius += motions.reaches[mesh];
+    }
     return groups;
 }
 
@@ -228,8 +235,9 @@ Status uploadTables(const formats::PackView& pack, const SceneLayout& layout, Up
     tables.bounds.fill(std::as_bytes(std::span(layout.bounds)));
     HEARTH_TRY(uploader.uploadRecords(b.items, layout.items));
     HEARTH_TRY(uploader.uploadRecords(b.order, layout.order));
-    HEARTH_TRY(uploader.uploadRecords(b.clusters, pack.clusters()));
-    HEARTH_TRY(uploader.uploadRecords(b.groups, makeGroups(pack, layout.pool)));
+    const std::span<const formats::ClusterRecord> moved = layout.motions.clusters;
+    HEARTH_TRY(uploader.uploadRecords(b.clusters, moved.empty() ? pack.clusters() : moved));
+    HEARTH_TRY(uploader.uploadRecords(b.groups, makeGroups(pack, layout.pool, layout.motions)));
     if (!layout.draws.empty())
         std::memcpy(b.cluster_draws.mapped, layout.draws.data(),
                     layout.draws.size() * sizeof(layout.draws[0]));
@@ -474,6 +482,8 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
     scene->tables = std::make_unique<SceneTables>();
     scene->tables->keeps_motion = options.keeps_motion;
     scene->frames.resize(options.frames_in_flight);
+    HEARTH_ASSIGN_OR_RETURN(const std::vector<MaterialBinding> bindings,
+                            bindMaterials(pack, options.material_shaders));
     PoolLayout pool;
     if (options.memory_budget > 0)
     {
@@ -483,7 +493,7 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
     {
         HEARTH_ASSIGN_OR_RETURN(pool, placeAllPages(pack));
     }
-    HEARTH_ASSIGN_OR_RETURN(SceneLayout layout, makeSceneLayout(pack, std::move(pool)));
+    HEARTH_ASSIGN_OR_RETURN(SceneLayout layout, makeSceneLayout(pack, std::move(pool), bindings));
     if (options.shadows.max_maps > 0 && options.shadows.casters == Casters::proxies)
         addProxyCasters(pack, layout);
     scene->proxies_cast = layout.proxy_chunks > 0;
@@ -517,7 +527,7 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
     HEARTH_TRY(uploadTables(pack, layout, *scene->staging, *scene));
     HEARTH_TRY(scene->staging->uploadRecords(scene->buffers.group_items, group_items.items));
     HEARTH_TRY(uploadGeometry(pack, layout, *scene->staging, *scene));
-    HEARTH_TRY(uploadMaterials(device, layouts, pack, options.material_functions, *scene->staging, *scene));
+    HEARTH_TRY(uploadMaterials(device, layouts, pack, bindings, *scene->staging, *scene));
     findSkyVisibility(pack, *scene);
     findLocalProbes(pack, *scene);
     fillSpareBindings(device, *scene);
@@ -525,6 +535,15 @@ Result<std::unique_ptr<Scene>> uploadScene(const Device& device, const DrawLayou
     HEARTH_TRY(uploadBricks(device, layouts, pack, options.bricks, *scene->staging, *scene));
     scene->staging->finish();
     scene->bins = std::move(layout.bins);
+    scene->motions = std::move(layout.motions);
+    scene->motions.clusters = {};
+    float reach = 0; // in the world
+    for (const uint32_t instance : scene->motions.instances)
+        reach = std::max(reach, scene->motions.reaches[scene->instances[instance].mesh] *
+                                    scene->instances[instance].scale_max);
+    if (reach > 0)
+        scene->bounds = {scene->bounds.min - Float3{reach, reach, reach},
+                         scene->bounds.max + Float3{reach, reach, reach}};
     if (scene->deformation != nullptr)
         storeDeformation(pack, std::move(layout.deformation), *scene);
     return scene;

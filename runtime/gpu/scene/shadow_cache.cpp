@@ -14,6 +14,9 @@ namespace hearth::gpu
 namespace
 {
 
+// covers what is rounded when a reach is added
+constexpr float kGrown = 1.001f;
+
 // below all errors, which can be 0
 constexpr float kUnchanged = -1;
 
@@ -51,7 +54,9 @@ std::vector<Box3> findProxyBoxes(const formats::PackView& pack, Casters casters)
 }
 
 /// Bounds of a mesh's clusters and of the spheres that decide its cut, or of the proxy that casts its shadow.
-std::vector<Box3> computeReaches(const formats::PackView& pack, std::span<const Box3> proxy_boxes)
+/// motions  VertexMotions::reaches
+std::vector<Box3> computeReaches(const formats::PackView& pack, std::span<const Box3> proxy_boxes,
+                                 std::span<const float> motions)
 {
     std::vector<Box3> reaches;
     for (const shared::MeshBounds& bounds : shared::makeMeshBounds(pack.meshes(), pack.clusters()))
@@ -66,6 +71,9 @@ std::vector<Box3> computeReaches(const formats::PackView& pack, std::span<const 
             reaches[mesh].add(group.sphere_center - reach);
             reaches[mesh].add(group.sphere_center + reach);
         }
+    for (size_t mesh = 0; mesh < motions.size(); ++mesh)
+        if (const Float3 motion = Float3{1, 1, 1} * (motions[mesh] * kGrown); !reaches[mesh].empty())
+            reaches[mesh] = {reaches[mesh].min - motion, reaches[mesh].max + motion};
     for (size_t mesh = 0; mesh < reaches.size(); ++mesh)
         if (!proxy_boxes[mesh].empty())
             reaches[mesh] = proxy_boxes[mesh];
@@ -107,6 +115,7 @@ shared::FrameView cullingKey(shared::FrameView casters)
 {
     casters.clip_x = casters.clip_y = casters.clip_w = {};
     casters.width = casters.height = 0;
+    casters.material_inputs = {}; // disturb() says what follows them
     return casters;
 }
 
@@ -121,10 +130,11 @@ bool sameBits(const T& a, const T& b)
 
 } // namespace
 
-ShadowCache::ShadowCache(const formats::PackView& pack, const ShadowOptions& options)
+ShadowCache::ShadowCache(const formats::PackView& pack, const ShadowOptions& options,
+                         std::span<const float> reaches)
     : pack_(pack),
       proxy_boxes_(findProxyBoxes(pack, options.casters)),
-      mesh_bounds_(computeReaches(pack, proxy_boxes_)),
+      mesh_bounds_(computeReaches(pack, proxy_boxes_, reaches)),
       changed_errors_(pack.meshes().size(), kUnchanged),
       has_moved_(pack.instances().size(), 0),
       moving_layers_(options.moving_layers),
@@ -148,6 +158,12 @@ void ShadowCache::move(std::span<const InstanceMove> moves)
         place(move.instance,
               worldBox(mesh_bounds_[mesh_of_instance_[move.instance]], readTransform(move.record)),
               move.record.scale_max);
+}
+
+void ShadowCache::disturb(std::span<const uint32_t> instances)
+{
+    for (const uint32_t instance : instances)
+        place(instance, Box3(instance_bounds_[instance]), instance_scales_[instance]);
 }
 
 void ShadowCache::pose(const DeformedInstance& instance, const PoseRows& rows)

@@ -24,13 +24,18 @@ public:
     /// casters if any of them moves.
     ///
     /// pack  outlives the cache if publish is called
-    ShadowCache(const formats::PackView& pack, const ShadowOptions& options);
+    /// reaches  VertexMotions::reaches
+    ShadowCache(const formats::PackView& pack, const ShadowOptions& options,
+                std::span<const float> reaches = {});
 
     /// Set instances that have new transforms from this frame on.
     void move(std::span<const InstanceMove> moves);
 
     /// Set a deformed instance that has a new pose from this frame on.
     void pose(const DeformedInstance& instance, const PoseRows& rows);
+
+    /// Set instances whose vertices have moved, by motions of their materials, from this frame on.
+    void disturb(std::span<const uint32_t> instances);
 
     /// Set groups that became resident or were evicted with this frame.
     void publish(std::span<const pack::ResidentGroups::Change> groups);

@@ -7,6 +7,9 @@
 #define DEFORMATION_BINDING kSceneDeformation
 #include "runtime/shaders/scene/deformation.glsl"
 #include "runtime/shaders/scene/pose_vertex.glsl"
+#ifdef HEARTH_MATERIAL_FUNCTIONS
+#include "runtime/shaders/scene/material_motion.glsl"
+#endif
 
 layout(constant_id = kConstantDeformed) const uint kDeformed = kDeformedNone;
 
@@ -36,7 +39,15 @@ vec3 scratchVector(uint word)
 vec3 drawnPosition(Instance instance, ClusterDraw draw, DrawnPose pose, uint index, vec3 eye)
 {
     if (kDeformed == kDeformedNone || pose.row == 0u)
-        return toEyeRelative(instance, eye, vertexPosition(draw, vertexAddress(draw, index)));
+    {
+        vec3 at_rest = vertexPosition(draw, vertexAddress(draw, index));
+#ifdef HEARTH_MATERIAL_FUNCTIONS
+        precise vec3 moved = toEyeRelative(instance, eye, at_rest) + vertexMotion(instance, at_rest);
+        return moved;
+#else
+        return toEyeRelative(instance, eye, at_rest);
+#endif
+    }
     precise vec3 position = pose.scratch != 0u ? scratchVector(pose.scratch + index * 3u)
                                                : posedPosition(draw, loadPose(pose.row), index);
     precise vec3 origin = vec3(instance.world_from_object_x.w - eye.x, instance.world_from_object_y.w - eye.y,

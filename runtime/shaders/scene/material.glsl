@@ -1,5 +1,8 @@
 // Material of a draw: set 1 of the pipelines that read materials.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#ifndef HEARTH_MATERIAL_GLSL
+#define HEARTH_MATERIAL_GLSL
+
 #include "formats/gpu_shared/bindings.h"
 #include "formats/gpu_shared/record_values.h"
 #include "formats/gpu_shared/shading.h"
@@ -22,3 +25,5 @@ vec2 transformUvVector(uint slot, vec2 d)
 {
     return vec2(dot(material.uv_rows[2u * slot].xy, d), dot(material.uv_rows[2u * slot + 1u].xy, d));
 }
+
+#endif

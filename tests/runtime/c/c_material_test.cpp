@@ -2,12 +2,10 @@
 // values from its extras draws the image of a material that has these values, by every light method that has
 // modules of its own, and by every way through a frame.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "tests/runtime/c/c_fixture.h"
-#include "tests/support/shapes.h"
+#include "tests/runtime/c/material_pack.h"
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <hearth_test_functions_material_shaders.h>
 
 namespace hearth::test
@@ -19,69 +17,6 @@ namespace
 using testing::HasSubstr;
 
 constexpr uint32_t kRed = 0xFF0000FF;
-
-/// Pack of a rock over a two-sided quad, both of one material.
-class MaterialPack
-{
-public:
-    MaterialPack(formats::MaterialRecord material, const std::string& extras,
-                 const std::function<void(TestScene&, formats::MaterialRecord&)>& change = {})
-    {
-        if (change)
-            change(scene_, material);
-        const uint32_t index = scene_.addMaterial(material);
-        if (!extras.empty())
-            addExtras(index, extras);
-        scene_.addInstance(scene_.addMesh(withMaterial(shapes::rock(24, 0.3f), index)), Affine3{});
-        mesh::SourceMesh quad = makeQuad(6, 6);
-        quad.colors.assign(4, {0, 0, 1, 1});
-        scene_.addInstance(scene_.addMesh(withMaterial(quad, index)), translated({0, 0, -1.5f}));
-        formats::LightRecord light{};
-        light.node = kInvalidIndex;
-        light.type = static_cast<uint32_t>(formats::LightType::point);
-        light.color = {1, 1, 1};
-        light.intensity = 60;
-        light.range = 9;
-        light.world_from_light = translated({2, 3, 3});
-        scene_.addLight(light);
-        bytes_ = scene_.model().bytes();
-        EXPECT_EQ(
-            hearth_pack_open_memory(bytes_.span().data(), bytes_.size(), "rock.hearth", &pack_, nullptr, 0),
-            HEARTH_OK);
-    }
-    ~MaterialPack() { EXPECT_EQ(hearth_pack_close(pack_), HEARTH_OK); }
-    MaterialPack(const MaterialPack&) = delete;
-    MaterialPack& operator=(const MaterialPack&) = delete;
-
-    hearth_pack* get() const { return pack_; }
-
-private:
-    void addExtras(uint32_t material, const std::string& json)
-    {
-        PackModel& model = scene_.model();
-        const formats::StringRef text{static_cast<uint32_t>(model.strings.size()),
-                                      static_cast<uint32_t>(json.size())};
-        model.strings += json;
-        model.extras.push_back({static_cast<uint32_t>(formats::ExtrasOwner::material), material, text});
-    }
-
-    TestScene scene_;
-    AlignedBytes bytes_;
-    hearth_pack* pack_ = nullptr;
-};
-
-formats::MaterialRecord doubleSided(formats::MaterialRecord material)
-{
-    material.flags |= formats::kMaterialDoubleSided;
-    return material;
-}
-
-formats::MaterialRecord unlit()
-{
-    formats::MaterialRecord material = doubleSided(plainMaterial());
-    material.flags |= formats::kMaterialUnlit;
-    return material;
-}
 
 } // namespace
 
@@ -282,7 +217,7 @@ TEST_F(CMaterialTest, errorsNameTheMaterialAndTheRemedy)
     std::erase_if(modules, [](const hearth_material_module& m)
                   { return std::string_view(m.name).find("marked") != std::string_view::npos; });
     few.modules = modules.data();
-    few.module_count = static_cast<uint32_t>(modules.size());
+    few.module_count = modules.size();
     recreate(&few, HEARTH_FEATURE_DEFERRED);
     const MaterialPack pack(unlit(), R"({"hearth_material":"stripes"})");
     hearth_frame frame = makeFrame();

@@ -60,7 +60,8 @@ std::map<std::string, uint32_t> constantIds()
             {"kReceivers", shared::kConstantReceivers},
             {"kLocalProbes", shared::kConstantLocalProbes},
             {"kMaterialFunction", shared::kConstantMaterialFunction},
-            {"kEncodes", shared::kConstantEncodes}};
+            {"kEncodes", shared::kConstantEncodes},
+            {"kMaterialMotion", shared::kConstantMaterialMotion}};
 }
 
 /// Not a GpuTest: that creates pipelines, and a driver may crash where a shader and a layout differ.
