@@ -62,12 +62,25 @@ HEARTH_FUNCTION Float3 toEyeRelative(HEARTH_IN(Instance) instance, Float3 eye, F
     return Float3(x, y, z);
 }
 
+/// True if a view has parallel rays.
+HEARTH_FUNCTION bool isOrthographic(HEARTH_IN(FrameView) view)
+{
+    return view.depth_scale > 0.0f;
+}
+
 /// Return the clip-space position of a point relative to the eye.
 HEARTH_FUNCTION Float4 clipPosition(HEARTH_IN(FrameView) view, Float3 relative)
 {
     HEARTH_PRECISE float x = dot3(row3(view.clip_x), relative);
     HEARTH_PRECISE float y = dot3(row3(view.clip_y), relative);
     HEARTH_PRECISE float w = dot3(row3(view.clip_w), relative);
+    if (isOrthographic(view))
+    {
+        HEARTH_PRECISE float shifted_x = x + view.clip_x.w;
+        HEARTH_PRECISE float shifted_y = y + view.clip_y.w;
+        HEARTH_PRECISE float depth = (view.clip_w.w - w) * view.depth_scale;
+        return Float4(shifted_x, shifted_y, depth, 1.0f);
+    }
     return Float4(x, y, view.z_near, w);
 }
 
@@ -151,12 +164,15 @@ struct ScreenError
 
 /// Project the error of a group to the screen:
 ///     E = scale * error * lod_scale * lodFactor(d) / d,  d = max(|center - eye| - scale * radius, z_near)
+/// Orthographic views have E = scale * error * lod_scale, and no curve.
 HEARTH_FUNCTION ScreenError screenError(HEARTH_IN(FrameView) view, HEARTH_IN(Instance) instance,
                                         Float3 sphere_center, float sphere_radius, float error)
 {
     HEARTH_PRECISE Float3 relative = toEyeRelative(instance, view.eye, sphere_center);
     HEARTH_PRECISE float distance =
         max(sqrt(dot3(relative, relative)) - instance.scale_max * sphere_radius, view.z_near);
+    if (isOrthographic(view))
+        distance = 1.0f;
     HEARTH_PRECISE float pixels_m =
         ((instance.scale_max * error) * view.lod_scale) * lodFactor(view, distance);
     ScreenError result;
@@ -235,7 +251,8 @@ HEARTH_FUNCTION Float3 coneRay(uint axis)
     return Float3(folded_x, folded_y, z);
 }
 
-/// Eye in the space that a matrix maps from.
+/// Eye in the space that a matrix maps from; of an orthographic view the direction in which it looks, of any
+/// length.
 struct ObjectEye
 {
     Float3 position;
@@ -258,16 +275,40 @@ HEARTH_FUNCTION ObjectEye objectEye(HEARTH_IN(InstanceInverse) inverse, Float3 o
     return eye;
 }
 
+/// Return the eye of a view in the space of a matrix.
+/// offset  eye minus the matrix's translation, world axes
+HEARTH_FUNCTION ObjectEye viewEye(HEARTH_IN(FrameView) view, HEARTH_IN(InstanceInverse) inverse,
+                                  Float3 offset)
+{
+    if (isOrthographic(view))
+        return objectEye(inverse, row3(view.clip_w));
+    return objectEye(inverse, offset);
+}
+
+/// True if all triangles whose normals are in a cone face away from an orthographic view, as boxFacesAway.
+HEARTH_FUNCTION bool coneFacesAlong(HEARTH_IN(ObjectEye) direction, uint cone)
+{
+    Float3 ray = coneRay(cone);
+    HEARTH_PRECISE float ray_length = sqrt(dot3(ray, ray));
+    HEARTH_PRECISE float sine = float(cone >> 16) * 1.52587890625e-5f + kConeMargin;
+    HEARTH_PRECISE float needed =
+        (sine * sqrt(dot3(direction.position, direction.position)) + 2.0f * direction.slack) * ray_length;
+    return dot3(direction.position, ray) >= needed;
+}
+
 /// True if every triangle in the box faces away from the eye. The test runs in object space, where any affine
 /// matrix, mirrored or sheared, leaves the facing unchanged. Not for double-sided materials.
 /// cone  axis code in the low half, above it the sine of the half-angle in 1/65536; 65535: no cone
 /// back  distance from the middle of the box to the apex, against the axis
-HEARTH_FUNCTION bool boxFacesAway(HEARTH_IN(ObjectEye) eye, uint cone, float back, Float3 box_min,
-                                  Float3 box_max)
+/// eye   viewEye
+HEARTH_FUNCTION bool boxFacesAway(HEARTH_IN(FrameView) view, HEARTH_IN(ObjectEye) eye, uint cone, float back,
+                                  Float3 box_min, Float3 box_max)
 {
     uint cutoff_code = cone >> 16;
     if (cutoff_code == 65535u)
         return false;
+    if (isOrthographic(view))
+        return coneFacesAlong(eye, cone);
     HEARTH_PRECISE Float3 center = (box_min + box_max) * 0.5f;
     HEARTH_PRECISE Float3 half_size = (box_max - box_min) * 0.5f;
 
@@ -286,14 +327,15 @@ HEARTH_FUNCTION bool boxFacesAway(HEARTH_IN(ObjectEye) eye, uint cone, float bac
 }
 
 /// True if every triangle of a cluster of a rigid instance faces away.
-HEARTH_FUNCTION bool coneFacesAway(HEARTH_IN(InstanceState) state, HEARTH_IN(Cluster) cluster)
+HEARTH_FUNCTION bool coneFacesAway(HEARTH_IN(FrameView) view, HEARTH_IN(InstanceState) state,
+                                   HEARTH_IN(Cluster) cluster)
 {
     ObjectEye eye;
     eye.position = state.eye_object;
     eye.slack = state.eye_slack;
     HEARTH_PRECISE float back =
         float((cluster.cone_back & 65535u) << extentShift(cluster)) * 16.0f * state.grid_step;
-    return boxFacesAway(eye, cluster.cone, back, clusterBoxMin(cluster, state.grid_step),
+    return boxFacesAway(view, eye, cluster.cone, back, clusterBoxMin(cluster, state.grid_step),
                         clusterBoxMax(cluster, state.grid_step));
 }
 
@@ -311,7 +353,7 @@ HEARTH_FUNCTION InstanceState decideInstance(HEARTH_IN(FrameView) view, HEARTH_I
     HEARTH_PRECISE Float3 offset =
         Float3(view.eye.x - instance.world_from_object_x.w, view.eye.y - instance.world_from_object_y.w,
                view.eye.z - instance.world_from_object_z.w);
-    ObjectEye eye = objectEye(inverse, offset);
+    ObjectEye eye = viewEye(view, inverse, offset);
 
     InstanceState state;
     state.eye_object = eye.position;
@@ -553,7 +595,7 @@ HEARTH_FUNCTION TexelReach clusterReach(HEARTH_IN(FrameView) view, HEARTH_IN(Ins
 ///
 /// A metre that faces the eye at distance d, at an angle a off the view's axis, covers
 /// lod_scale / (d cos^2 a) pixels away from the axis, or lod_scale / (depth cos a). The cosine is at least
-/// depth / d, and at least that of the image's corners.
+/// depth / d, and at least that of the image's corners. Orthographic it covers lod_scale pixels.
 ///
 /// density_code  ClusterRecord::uv_density
 /// returns       0: the cluster has no UVs, or no material reads them
@@ -563,6 +605,10 @@ HEARTH_FUNCTION uint texelRequest(HEARTH_IN(FrameView) view, HEARTH_IN(Instance)
     if (density_code == 0u)
         return 0u;
     HEARTH_PRECISE float pixels_m = instance.scale_max * view.lod_scale;
+    int density = (int(density_code) - 128) << (kTexelRequestBits - 3);
+    int fineness = fixedLog2(pixels_m) - density + (kTexelRequestOctaves << kTexelRequestBits);
+    if (isOrthographic(view))
+        return fineness > 0 ? uint(fineness) : 1u;
     int distance = fixedLog2(max(reach.distance, view.z_near));
     int depth = fixedLog2(max(reach.depth, view.z_near));
     int own_cosine = depth - fixedLog2(max(reach.farthest, view.z_near));
@@ -571,8 +617,7 @@ HEARTH_FUNCTION uint texelRequest(HEARTH_IN(FrameView) view, HEARTH_IN(Instance)
     int by_depth = depth + cosine;
     int by_distance = distance + 2 * cosine;
     int nearness = by_depth > by_distance ? by_depth : by_distance;
-    int density = (int(density_code) - 128) << (kTexelRequestBits - 3);
-    int request = fixedLog2(pixels_m) - nearness - density + (kTexelRequestOctaves << kTexelRequestBits);
+    int request = fineness - nearness;
     return request > 0 ? uint(request) : 1u;
 }
 
@@ -602,7 +647,7 @@ HEARTH_FUNCTION bool decideCluster(HEARTH_IN(FrameView) view, HEARTH_IN(Instance
     if (!clusterInFrustum(view, instance, state, cluster))
         return false;
     bool test_cone = (view.flags & kCullCone) != 0u && !double_sided && state.cone_valid != 0u;
-    return !(test_cone && coneFacesAway(state, cluster));
+    return !(test_cone && coneFacesAway(view, state, cluster));
 }
 
 HEARTH_SHARED_END

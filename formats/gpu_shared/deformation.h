@@ -290,8 +290,8 @@ HEARTH_FUNCTION bool deformedFacesAway(HEARTH_IN(FrameView) view, HEARTH_IN(Inst
     HEARTH_PRECISE Float3 offset =
         Float3(moved.eye.x - joint.world_from_bind_x.w, moved.eye.y - joint.world_from_bind_y.w,
                moved.eye.z - joint.world_from_bind_z.w);
-    return boxFacesAway(objectEye(inverse, offset), cluster.cone, cluster.cone_back, cluster.box_min,
-                        cluster.box_max);
+    return boxFacesAway(view, viewEye(view, inverse, offset), cluster.cone, cluster.cone_back,
+                        cluster.box_min, cluster.box_max);
 }
 
 HEARTH_SHARED_END

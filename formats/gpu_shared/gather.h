@@ -79,7 +79,16 @@ struct GatherView
     uint tiles_y;
     uint has_history; ///< 0: there is no frame before
     float tile_angle; ///< metres that a tile covers at a distance of one metre
+    Float3 reserved;
+    float tile_size; ///< metres that a tile of an orthographic view covers; else 0
 };
+
+/// Return the metres that a tile covers.
+/// distance  from the eye, metres
+HEARTH_FUNCTION float gatherTileSize(HEARTH_IN(GatherView) view, float distance)
+{
+    return view.tile_size > 0.0f ? view.tile_size : distance * view.tile_angle;
+}
 
 /// Weights of the sharp lobe, the wide lobe and the cosine-weighted mean in a surface's reflection.
 struct GatherLobeShares
@@ -113,7 +122,7 @@ HEARTH_SHARED_END
 #ifdef __cplusplus
 // sizes in std430 and std140 layout
 static_assert(sizeof(hearth::shared::GatherPoint) == 112);
-static_assert(sizeof(hearth::shared::GatherView) == 96);
+static_assert(sizeof(hearth::shared::GatherView) == 112);
 #endif
 
 #endif

@@ -19,7 +19,7 @@ HEARTH_SHARED_BEGIN
 HEARTH_CONSTANT float kPixelMargin = 0.015625f;
 
 /// Relative margin of depth. A rasteriser rounds depth a few times, so it may come out nearer than the
-/// nearest corner's by this much.
+/// nearest corner's by this much; of an orthographic view by this part of the range.
 HEARTH_CONSTANT float kDepthMargin = 1.52587890625e-5f;
 
 /// Side in pixels of the square that a workgroup of the pyramid pass reduces, by that many levels.
@@ -120,6 +120,15 @@ HEARTH_FUNCTION PyramidBox pyramidBox(HEARTH_IN(OcclusionView) view, HEARTH_IN(I
         HEARTH_PRECISE float y = dot3(clip_y, corner) / w;
         HEARTH_PRECISE float off_x = (slack_x + abs(x) * slack_w) / w_low;
         HEARTH_PRECISE float off_y = (slack_y + abs(y) * slack_w) / w_low;
+        if (view.depth_scale > 0.0f)
+        {
+            HEARTH_PRECISE float parallel_x = dot3(clip_x, corner) + view.clip_x.w;
+            HEARTH_PRECISE float parallel_y = dot3(clip_y, corner) + view.clip_y.w;
+            x = parallel_x;
+            y = parallel_y;
+            off_x = slack_x + abs(x) * kRoundingSlack;
+            off_y = slack_y + abs(y) * kRoundingSlack;
+        }
         HEARTH_PRECISE float x_low = x - off_x;
         HEARTH_PRECISE float x_high = x + off_x;
         HEARTH_PRECISE float y_low = y - off_y;
@@ -159,6 +168,11 @@ HEARTH_FUNCTION PyramidBox pyramidBox(HEARTH_IN(OcclusionView) view, HEARTH_IN(I
     result.offset = offset;
     result.stride = pyramidSize(view.width, level);
     HEARTH_PRECISE float depth = (view.z_near / nearest) * (1.0f + kDepthMargin);
+    if (view.depth_scale > 0.0f)
+    {
+        HEARTH_PRECISE float parallel_depth = (view.clip_w.w - nearest) * view.depth_scale + kDepthMargin;
+        depth = parallel_depth;
+    }
     result.depth = depth;
     result.known = 1u;
     return result;

@@ -192,23 +192,24 @@ HEARTH_FUNCTION uint clusterLevel(HEARTH_IN(ClusterDraw) draw)
 HEARTH_CONSTANT uint kLodKnots = 8;
 
 /// Camera and flags of one frame. All positions that reach the screen are relative to the eye, in world axes,
-/// so coordinates far from the origin keep their precision: clip = (x . p, y . p, z_near, w . p).
+/// so coordinates far from the origin keep their precision: clip = (x . p, y . p, z_near, w . p), or of an
+/// orthographic view (x . p + x_w, y . p + y_w, (z_far - w . p) depth_scale, 1).
 struct FrameView
 {
-    Float4 clip_x; ///< w unused, here and below
+    Float4 clip_x; ///< w: shift of an orthographic image, here and below; else 0
     Float4 clip_y;
-    Float4 clip_w;
+    Float4 clip_w;    ///< xyz: axis of the view, unit; w: z_far of an orthographic view, else 0
     Float4 planes[5]; ///< left, right, bottom, top, near: inside where dot(xyz, p) + w >= 0
     Float3 eye;       ///< world
-    float z_near;     ///< metres; the far plane is infinite, depth = z_near / distance
-    float lod_scale;  ///< pixels that one metre covers at a distance of one metre
+    float z_near;     ///< metres; without a far plane depth = z_near / distance along the axis
+    float lod_scale;  ///< pixels that one metre covers at a distance of one metre, or orthographic at any
     float threshold;  ///< error in pixels below which a group is not refined; negative: refine everything
     uint flags;       ///< bits kCull*
     uint instance_count;
     float width; ///< pixels
     float height;
     float corner_cosine; ///< of the angle between the view's axis and a corner of the image, or less
-    uint reserved;
+    float depth_scale;   ///< of an orthographic view, 1 / (z_far - z_near); else 0
     Float4 lod_curve[8]; ///< from distance x on the factor goes from y to z, with slope w per metre
     Float4 material_inputs; ///< of the game, for its material functions
 };
@@ -224,7 +225,7 @@ struct OcclusionView
     uint width; ///< pixels
     uint height;
     uint level_count; ///< 0: there is no pyramid and nothing is occluded
-    uint reserved;
+    float depth_scale;
 };
 
 /// Clusters or groups of a work item: threads of its workgroup.

@@ -572,7 +572,7 @@ typedef struct hearth_targets_info
     uint64_t
         transient_bytes; /* of attachments on the tile only, which the device allocates lazily, if ever */
     /* since 1.8: D32_SFLOAT_S8_UINT, for draws of the game behind the frame: z_near over the distance along
-     * the camera's axis, 0 where nothing is; the stencil is Hearth's. Usage DEPTH_STENCIL_ATTACHMENT, SAMPLED
+     * the camera's axis, or as an orthographic camera has it, 0 where nothing is; the stencil is Hearth's. Usage DEPTH_STENCIL_ATTACHMENT, SAMPLED
      * and TRANSFER_SRC. Give it back in the state `before`: the next frame may cull against it. With
      * HEARTH_FEATURE_DEPTH; else `image` is VK_NULL_HANDLE. */
     hearth_image depth;
@@ -680,13 +680,14 @@ enum
     HEARTH_TIMESTAMP_COUNT = 9
 };
 
-/* Perspective camera. The far plane is infinite, depth = z_near / distance along the view. */
+/* Perspective camera: the far plane is infinite, depth = z_near / distance along the view. Or an orthographic
+ * one, if y_fov_rad is 0 (1.8): hearth_frame.half_height. */
 typedef struct hearth_camera
 {
     float position[3];
     float target[3]; /* any point on the view axis */
     float up[3];
-    float y_fov_rad; /* full vertical angle, above 0 and below pi */
+    float y_fov_rad; /* full vertical angle, above 0 and below pi; or 0 */
     float z_near;    /* metres, above 0 */
 } hearth_camera;
 
@@ -888,6 +889,11 @@ typedef struct hearth_frame
      * image, from its middle, in halves of its width to the right and of its height upwards; -1024 to 1024.
      * Moved by p pixels: 2 * p / width. */
     float shift[2];
+    /* Of orthographic cameras, ignored for others: half the height of the image, metres, above 0, and the
+     * distance along the view beyond which nothing is drawn, above z_near. depth = (z_far - distance) /
+     * (z_far - z_near), in floats: steps of 6e-8 of the range at z_near. Errors count equally at all distances:
+     * such frames have no lod_knots. All faces of point lights count as seen (unseen_maps). */
+    float half_height, z_far;
     float material_inputs[4]; /* for the material functions of the game: a time, a wind; finite */
 } hearth_frame;
 
@@ -897,7 +903,7 @@ typedef struct hearth_frame
             NULL, 0, 0, NULL, HEARTH_VIEW_FINAL, 1, HEARTH_SHADE_AUTOMATIC, 0, NULL, VK_NULL_HANDLE, NULL,   \
             0, HEARTH_AMBIENT_OCCLUSION_EXACT, HEARTH_SPECULAR_OCCLUSION_FIT, 0, NULL, NULL, 0, 0, 0, 0, 0,  \
             0.18f, 1, 0, {1, 1, 1}, 0, 0, HEARTH_BLOOM_MIX, HEARTH_LIGHTS_PRACTICAL, HEARTH_LIGHT_LISTS_GPU, \
-            NULL, 0, 0, NULL, {0, 0}, {0, 0, 0, 0}                                                           \
+            NULL, 0, 0, NULL, {0, 0}, 0, 0, {0, 0, 0, 0}                                                     \
     }
 
 /* ---- Tables of a pack (1.6), on any thread ----
@@ -1121,7 +1127,7 @@ HEARTH_API hearth_result hearth_pack_get_instance(const hearth_pack* pack, uint3
 enum
 {
     HEARTH_CAMERA_PERSPECTIVE = 0,
-    HEARTH_CAMERA_ORTHOGRAPHIC = 1 /* frames cannot draw it */
+    HEARTH_CAMERA_ORTHOGRAPHIC = 1
 };
 
 /* Camera that the artist placed. */
@@ -1392,7 +1398,7 @@ HEARTH_API hearth_result hearth_queries_cast_rays(hearth_queries* queries, const
                                                   hearth_hit* hits, char* message, size_t message_size);
 
 /* Make the ray through a place of a frame's image, by its camera and its shift alone. Its t is the distance
- * along the view's axis, from z_near on.
+ * along the view's axis, from z_near on, to z_far of an orthographic camera.
  * width, height  of the targets; above 0
  * x, y           pixels from the left and from the top; a pixel's center is at .5
  * errors: USAGE. */

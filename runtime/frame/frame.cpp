@@ -28,6 +28,28 @@ Float3 rightVector(Float3 forward, Float3 up)
     return normalizeOr(cross(forward, other), {1, 0, 0});
 }
 
+/// Set the projection of an orthographic view.
+/// x, y, w  unit vectors to the right of the image, up, and along the view
+void setOrthographic(FrameView& view, const Camera& camera, Float3 x, Float3 y, Float3 w)
+{
+    HEARTH_ASSERT(camera.z_far > camera.z_near);
+    const float half_width = camera.half_height * view.width / view.height;
+    const Float3 right = x / half_width;
+    const Float3 down = y / -camera.half_height; // Vulkan's clip space has y down
+    const auto side = [](Float3 normal, float shift)
+    { return row(normal, 1 + shift + (1 + std::abs(shift)) * kRoundingSlack); };
+    view.clip_x = row(right, camera.shift.x);
+    view.clip_y = row(down, -camera.shift.y);
+    view.clip_w = row(w, camera.z_far);
+    view.planes[0] = side(right, camera.shift.x);
+    view.planes[1] = side(right * -1.0f, -camera.shift.x);
+    view.planes[2] = side(down, -camera.shift.y);
+    view.planes[3] = side(down * -1.0f, camera.shift.y);
+    view.lod_scale = 0.5f * view.height / camera.half_height;
+    view.corner_cosine = 1;
+    view.depth_scale = 1 / (camera.z_far - camera.z_near);
+}
+
 } // namespace
 
 FrameView makeFrameView(const Camera& camera, uint32_t width, uint32_t height, float error_pixels,
@@ -65,6 +87,8 @@ FrameView makeFrameView(const Camera& camera, uint32_t width, uint32_t height, f
     view.instance_count = instance_count;
     view.width = static_cast<float>(width);
     view.height = static_cast<float>(height);
+    if (camera.half_height > 0)
+        setOrthographic(view, camera, right, up, forward);
     const Status plain = setLodCurve(view, {});
     HEARTH_ASSERT(plain.ok());
     return view;
@@ -82,7 +106,7 @@ OcclusionView makeOcclusionView(const FrameView& view)
             .width = width,
             .height = height,
             .level_count = pyramidLevels(width, height),
-            .reserved = 0};
+            .depth_scale = view.depth_scale};
 }
 
 InstanceInverse makeInstanceInverse(const formats::InstanceRecord& instance)

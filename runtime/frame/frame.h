@@ -18,16 +18,19 @@ struct Camera
     Float3 position;
     Float3 target{0, 0, -1};
     Float3 up{0, 1, 0};
-    float y_fov_rad = 0.8f; ///< full vertical angle
+    float y_fov_rad = 0.8f; ///< full vertical angle; ignored if the camera is orthographic
     float z_near = 0.01f;   ///< metres
     /// Off-centre images: place of the view axis in the image, from its middle, in halves of its width to the
     /// right and of its height upwards.
     Float2 shift{};
+    /// Half the height of an orthographic image, metres; 0: the camera is a perspective one.
+    float half_height = 0;
+    float z_far = 0; ///< of an orthographic camera, metres, above z_near: nothing is drawn beyond
 };
 
 /// Return the constants of a frame. `error_pixels` is the projected LOD error that need not be refined; 0
 /// selects the source triangles, even where a coarser level has no error. Errors count equally at all
-/// distances: setLodCurve (lod_curve.h) changes that.
+/// distances: setLodCurve (lod_curve.h) changes that, but for orthographic cameras.
 FrameView makeFrameView(const Camera& camera, uint32_t width, uint32_t height, float error_pixels,
                         uint32_t instance_count, uint32_t flags = kCullEverything);
 

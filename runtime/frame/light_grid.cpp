@@ -26,13 +26,13 @@ struct ClipRow
     float shift;
 };
 
-ClipRow splitRow(Float4 row, Float3 forward)
+ClipRow splitRow(Float4 row, Float3 forward, bool is_orthographic)
 {
     const Float3 r = row3(row);
-    const float shift = dot(r, forward);
-    const Float3 across = r - forward * shift;
+    const float along = is_orthographic ? 0 : dot(r, forward);
+    const Float3 across = r - forward * along;
     const float scale = length(across);
-    return {across / scale, scale, shift};
+    return {across / scale, scale, is_orthographic ? row.w : along};
 }
 
 float edgeLength(float edge, bool is_orthographic)
@@ -107,8 +107,9 @@ LightCascade layOutTiles(const LightGridView& view)
 LightGridView lightGridView(const FrameView& view)
 {
     const Float3 forward = row3(view.clip_w);
-    const ClipRow x = splitRow(view.clip_x, forward);
-    const ClipRow y = splitRow(view.clip_y, forward);
+    const bool is_orthographic = isOrthographic(view);
+    const ClipRow x = splitRow(view.clip_x, forward, is_orthographic);
+    const ClipRow y = splitRow(view.clip_y, forward, is_orthographic);
     return {.eye = view.eye,
             .right = x.axis,
             .down = y.axis,
@@ -119,7 +120,8 @@ LightGridView lightGridView(const FrameView& view)
             .center_y = 0.5f * view.height * (1 + y.shift),
             .width = view.width,
             .height = view.height,
-            .z_near = view.z_near};
+            .z_near = view.z_near,
+            .is_orthographic = is_orthographic};
 }
 
 LightGridLayout makeLightGrid(const LightGridView& view)

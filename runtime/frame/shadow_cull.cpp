@@ -65,7 +65,9 @@ EyeCell findEyeCell(const FrameView& view, float texel_m, float error_bias)
     constexpr float kMinExponent = -10;
     constexpr float kMaxExponent = 10;
     constexpr float kHalfDiagonal = 0.8660255f; // of a cube of side 1
-    const float error_a_metre = std::max(view.threshold, 0.0f) * error_bias / view.lod_scale;
+    // orthographic, errors do not depend on where the eye is
+    const float error_a_metre =
+        isOrthographic(view) ? 0 : std::max(view.threshold, 0.0f) * error_bias / view.lod_scale;
     const float allowed_shift = 0.5f * texel_m / std::max(error_a_metre, 1e-12f);
     const float exponent = std::floor(std::log2(allowed_shift / kHalfDiagonal));
     const float side = std::exp2(std::clamp(exponent, kMinExponent, kMaxExponent));

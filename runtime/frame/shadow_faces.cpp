@@ -103,7 +103,8 @@ std::array<Double3, 4> makeCornerRays(const std::array<Double3, 5>& planes)
 bool mayShowFace(const FrameView& view, const ShadowLight& face, float range)
 {
     const double margin = findMargin(view);
-    if (margin > kMaxMargin)
+    // the tests below are of planes through the eye
+    if (margin > kMaxMargin || isOrthographic(view))
         return true;
     const Pyramid pyramid = makeFace(view, face, range, margin);
     const std::array<Double3, 5> planes = makeViewPlanes(view);

@@ -112,6 +112,14 @@ Sphere makeSliceSphere(Double3 eye, Double3 forward, double near, double far, do
     return {narrow(eye + forward * center), static_cast<float>(radius)};
 }
 
+/// Return the sphere around the slice [near, far] of an orthographic view.
+/// corner2  squared distance from the axis to an edge
+Sphere makeBoxSphere(Double3 eye, Double3 forward, double near, double far, double corner2)
+{
+    const double half = 0.5 * (far - near);
+    return {narrow(eye + forward * (near + half)), static_cast<float>(std::sqrt(half * half + corner2))};
+}
+
 /// Return how much farther from the view's axis the far side of an off-centre image is than that of a centred
 /// one. Shifts of less than four pixels do not count, and others are rounded: the maps of an image that
 /// jitters shall stay as they are.
@@ -120,7 +128,8 @@ Sphere makeSliceSphere(Double3 eye, Double3 forward, double near, double far, do
 double widening(const Float4& row, const Float4& along, float pixels)
 {
     constexpr double kPixels = 4, kSteps = 64;
-    const double shift = std::abs(double{dot(row3(row), row3(along))});
+    const bool is_orthographic = along.w > 0;
+    const double shift = std::abs(double{is_orthographic ? row.w : dot(row3(row), row3(along))});
     const double counted = std::max(0.0, shift - 2 * kPixels / double{pixels});
     return 1 + std::ceil(counted * kSteps) / kSteps;
 }
@@ -260,7 +269,8 @@ void computeSplitSpheres(const FrameView& view, const SplitRange& range, std::sp
         const double part = static_cast<double>(i + 1) / static_cast<double>(spheres.size());
         const double end =
             blend * near * std::pow(far / near, part) + (1 - blend) * (near + (far - near) * part);
-        spheres[i] = makeSliceSphere(eye, forward, begin, end, corner_tangent2);
+        spheres[i] = isOrthographic(view) ? makeBoxSphere(eye, forward, begin, end, corner_tangent2)
+                                          : makeSliceSphere(eye, forward, begin, end, corner_tangent2);
         begin = end;
     }
 }

@@ -121,6 +121,11 @@ shared::Camera sceneCamera(const formats::PackView& pack, uint32_t index)
     camera.up = transformVector(world_from_camera, {0, 1, 0});
     camera.y_fov_rad = record.y_fov_rad;
     camera.z_near = record.z_near > 0 ? record.z_near : nearPlane(1);
+    if (record.type == static_cast<uint32_t>(formats::CameraType::orthographic))
+    {
+        camera.half_height = std::abs(record.y_magnification);
+        camera.z_far = std::max(record.z_far, 2 * camera.z_near);
+    }
     return camera;
 }
 

@@ -25,7 +25,7 @@ shared::Camera fitCamera(std::span<const pack::TransformedBox> boxes, float aspe
 /// Fit a camera to a pack at rest.
 shared::Camera fitCamera(const formats::PackView& pack, float aspect);
 
-/// Return camera `index` of the pack, which must exist and be a perspective one.
+/// Return camera `index` of the pack, which must exist. The image of an orthographic one has its height.
 shared::Camera sceneCamera(const formats::PackView& pack, uint32_t index);
 
 /// Near plane for a camera that looks at something `distance` metres away: near enough never to clip it, far

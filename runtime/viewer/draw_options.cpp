@@ -518,8 +518,6 @@ Result<shared::Camera> chooseCamera(const DrawOptions& options, const formats::P
         return Error{Issue::usage, pack.name(), "",
                      "--scene-camera " + std::to_string(*options.scene_camera) + ": the pack has " +
                          std::to_string(cameras.size()) + " cameras"};
-    if (cameras[*options.scene_camera].type != static_cast<uint32_t>(formats::CameraType::perspective))
-        return Error{Issue::usage, pack.name(), "", "--scene-camera: only perspective cameras can be drawn"};
     return sceneCamera(pack, *options.scene_camera);
 }
 

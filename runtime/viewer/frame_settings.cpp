@@ -165,8 +165,11 @@ gpu::FrameInput makeFrame(const FrameSettings& settings, const shared::Camera& c
 {
     shared::FrameView view = shared::makeFrameView(camera, extent.width, extent.height, settings.error_pixels,
                                                    instance_count, settings.cull_flags);
-    const Status curve = shared::setLodCurve(view, settings.lod_curve);
-    HEARTH_ASSERT(curve.ok()); // settings are checked when they are parsed
+    if (!shared::isOrthographic(view)) // errors of others count equally at all distances
+    {
+        const Status curve = shared::setLodCurve(view, settings.lod_curve);
+        HEARTH_ASSERT(curve.ok()); // settings are checked when they are parsed
+    }
     return {.view = view,
             .shading = {.debug_view = settings.view,
                         .depth_scale = length(camera.target - camera.position),

@@ -231,7 +231,7 @@ std::vector<reference::DrawnCluster> chooseClusters(const CutScene& scene, const
                 continue;
             const auto cluster = std::bit_cast<shared::Cluster>(record);
             if (shared::clusterInFrustum(view, instance, state, cluster) &&
-                !(state.cone_valid != 0 && shared::coneFacesAway(state, cluster)))
+                !(state.cone_valid != 0 && shared::coneFacesAway(view, state, cluster)))
                 chosen.push_back({i, c});
         }
     }

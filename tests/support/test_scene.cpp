@@ -310,4 +310,12 @@ shared::Camera randomCamera(std::mt19937& random, float reach)
     return camera;
 }
 
+shared::Camera randomOrthographicCamera(std::mt19937& random, float reach)
+{
+    shared::Camera camera = randomCamera(random, reach);
+    camera.half_height = uniform(random, 0.1f, 0.5f) * reach;
+    camera.z_far = camera.z_near + uniform(random, 1.0f, 4.0f) * reach;
+    return camera;
+}
+
 } // namespace hearth::test

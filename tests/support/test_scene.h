@@ -72,6 +72,8 @@ Affine3 randomAffine(std::mt19937& random, float reach);
 
 /// Camera with eye and target about the origin, and random field of view and near plane.
 shared::Camera randomCamera(std::mt19937& random, float reach);
+/// The same with parallel rays.
+shared::Camera randomOrthographicCamera(std::mt19937& random, float reach);
 
 /// Valid distance curve, as steep as allowed, upwards and downwards.
 std::vector<shared::LodKnot> randomLodCurve(std::mt19937& random);

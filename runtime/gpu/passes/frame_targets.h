@@ -85,11 +85,11 @@ inline bool alwaysHasFinalPass(const TargetOptions& options, VkExtent2D extent)
 }
 
 /// Render targets of one camera. After a frame `color` is in VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, visible to
-/// transfers, or as CallerImages says; `visibility`, if it is kept, is in that layout as well. `depth`, if the
-/// renderer keeps it, is in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL after a frame, and has to be before the
-/// next one. `radiance`, if it is kept, is in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, visible to fragments:
-/// a copy waits for those by a barrier of the caller's. Before a frame the content and layout of all but a
-/// kept depth do not matter.
+/// transfers, or as CallerImages says; `visibility`, if it is kept, is in that layout as well. `depth`, if
+/// the renderer keeps it, is in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL after a frame, and has to be before
+/// the next one. `radiance`, if it is kept, is in VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, visible to
+/// fragments: a copy waits for those by a barrier of the caller's. Before a frame the content and layout of
+/// all but a kept depth do not matter.
 ///
 /// The pyramid is a guess: whatever it holds, the rendered frame is the same. The better the guess, the less
 /// is drawn.

@@ -68,6 +68,7 @@ shared::GatherView GatherTargets::beginFrame(const shared::FrameView& view, Floa
     gather.tiles_y = tiles_.height;
     gather.has_history = has_history_ ? 1 : 0;
     gather.tile_angle = static_cast<float>(shared::kGatherTilePixels) / view.lod_scale;
+    gather.tile_size = shared::isOrthographic(view) ? gather.tile_angle : 0;
     before_ = view;
     has_history_ = true;
     current_ = 1 - current_;

@@ -98,7 +98,8 @@ bool mayExceed(const shared::FrameView& casters, const Box3& box, float error_wo
                         outside(casters.eye.y, box.min.y, box.max.y),
                         outside(casters.eye.z, box.min.z, box.max.z)};
     constexpr float kRounding = 1.001f;
-    const float distance = std::max(length(offset) / kRounding, casters.z_near);
+    const float distance =
+        shared::isOrthographic(casters) ? 1 : std::max(length(offset) / kRounding, casters.z_near);
     return error_world * kRounding * casters.lod_scale * shared::lodFactor(casters, distance) >
            casters.threshold * distance;
 }

@@ -7,6 +7,7 @@
 #include "runtime/shaders/scene/bricks.glsl"
 #include "formats/gpu_shared/gather.h"
 #include "formats/gpu_shared/gather_lobe.h"
+#include "runtime/shaders/scene/to_eye.glsl"
 
 layout(local_size_x = kGatherRays, local_size_y = kGatherGroupPoints) in; // kGatherRays is 2 kGatherLobeRays
 
@@ -24,7 +25,7 @@ shared BrickStart starts[kGatherGroupPoints];
 // Trace ray `index` of the two lobes. Returns its weighted radiance.
 vec4 traceLobeRay(GatherPoint point, BrickStart start, uint index, uint seed)
 {
-    GatherLobeRay ray = gatherLobeRay(-normalize(point.position), point.normal, index < kGatherLobeRays ? kGatherSharpRoughness : kGatherWideRoughness,
+    GatherLobeRay ray = gatherLobeRay(normalize(toEye(point.position)), point.normal, index < kGatherLobeRays ? kGatherSharpRoughness : kGatherWideRoughness,
                                       index % kGatherLobeRays * kGatherFrames + gather.frame % kGatherFrames,
                                       kGatherLobeRays * kGatherFrames, seed);
     if (ray.weight == 0.0)
@@ -106,14 +107,15 @@ GatherPoint reprojectHistory(GatherPoint point)
     float w = dot(gather.clip_w.xyz, position);
     if (w < view.z_near)
         return known;
-    vec2 ndc = vec2(dot(gather.clip_x.xyz, position), dot(gather.clip_y.xyz, position)) / w;
+    vec2 ndc = vec2(dot(gather.clip_x.xyz, position), dot(gather.clip_y.xyz, position));
+    ndc = gather.clip_w.w > 0.0 ? ndc + vec2(gather.clip_x.w, gather.clip_y.w) : ndc / w;
     // in texels of tiles: a point represents the middle of its tile
     vec2 at = (ndc * 0.5 + 0.5) * vec2(view.width, view.height) / float(kGatherTilePixels) - 0.5;
     // exactly the tile itself where nothing moves
     at = mix(at, round(at), lessThan(abs(at - round(at)), vec2(0.35)));
     vec2 low = floor(at);
     vec2 part = at - low;
-    float reach = max(w, view.z_near) * gather.tile_angle;
+    float reach = gatherTileSize(gather, max(w, view.z_near));
     float sum = 0.0;
     for (uint i = 0u; i < 4u; ++i)
     {
@@ -184,7 +186,7 @@ void main()
     bool seen = point.has_surface > 0.0;
     if (seen && index == 0u)
         starts[row] = brickVisibleStart(brick_view.grid, (gather.eye + point.position) / brick_view.grid.voxel_size, point.normal,
-                                        -point.position / brick_view.grid.voxel_size);
+                                        toEye(point.position) / brick_view.grid.voxel_size);
     barrier();
     bool open = seen && starts[row].is_interior == 0u;
     if (open)

@@ -18,7 +18,7 @@ layout(set = kSetGatherSmooth, binding = kGatherTexels, rgba32ui) uniform writeo
 // points borrow from their neighbours.
 float surfaceSimilarity(GatherPoint point, GatherPoint other)
 {
-    float tile = max(length(point.position), 1e-6) * gather.tile_angle;
+    float tile = gatherTileSize(gather, max(length(point.position), 1e-6));
     float off_plane = abs(dot(point.normal, other.position - point.position)) / tile;
     float alike = max(dot(point.normal, other.normal), 0.0);
     alike *= alike;

@@ -3,6 +3,7 @@
 // fragments need that place.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/bindings.h"
+#include "formats/gpu_shared/decisions.h"
 #include "formats/gpu_shared/shading.h"
 #include "formats/gpu_shared/light_volume.h"
 
@@ -28,6 +29,5 @@ void main()
     light_row = light_words[lighting.first_list_word + kLightCountWords + unranged + uint(gl_InstanceIndex)];
     vec3 corner = lightVolumeCorner(makeCellLight(lighting.grid, lights[light_row]), uint(gl_VertexIndex));
     vec3 position = lighting.grid.right * corner.x + lighting.grid.down * corner.y + lighting.grid.forward * corner.z;
-    gl_Position = vec4(dot(view.clip_x.xyz, position), dot(view.clip_y.xyz, position), view.z_near,
-                       dot(view.clip_w.xyz, position));
+    gl_Position = clipPosition(view, position);
 }

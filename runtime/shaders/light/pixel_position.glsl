@@ -10,4 +10,10 @@ layout(input_attachment_index = kInputDepth, set = kSetScene, binding = kAttachm
 float loadDepth() { return subpassLoad(stored_depth).x; }
 
 // Point of the pixel at a depth, relative to the eye.
-vec3 pixelPosition(vec2 pixel, float depth) { return pixelRay(pixel) * (view.z_near / depth); }
+vec3 pixelPosition(vec2 pixel, float depth)
+{
+    PixelRay ray = pixelRay(pixel);
+    if (isOrthographic(view))
+        return ray.origin + ray.along * (view.clip_w.w - depth / view.depth_scale);
+    return ray.along * (view.z_near / depth);
+}

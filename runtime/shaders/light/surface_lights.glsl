@@ -5,6 +5,7 @@
 #include "formats/gpu_shared/specialization.h"
 #include "runtime/shaders/scene/directions.glsl"
 #include "runtime/shaders/scene/light_block.glsl"
+#include "runtime/shaders/scene/to_eye.glsl"
 #include "runtime/shaders/shade/brdf.glsl"
 #include "runtime/shaders/shade/light_irradiance.glsl"
 #include "runtime/shaders/shade/stored_radiance.glsl"
@@ -33,7 +34,7 @@ PlacedSurface placedSurface(LitSurface surface, vec3 position)
     placed.receives = surface.receives;
     placed.shading.roughness = surface.roughness;
     placed.shading.normal = surface.normal;
-    placed.shading.to_eye = normalizeOr(-placed.position, surface.normal);
+    placed.shading.to_eye = normalizeOr(toEye(placed.position), surface.normal);
     placed.shading.n_dot_v = clampedCosine(surface.normal, placed.shading.to_eye);
     placed.shading.lobe = lobeTotal(surface.roughness, placed.shading.n_dot_v);
     placed.shading.albedo = surfaceAlbedo(surface.base, surface.metallic, defaultDielectric(), placed.shading.lobe);

@@ -1,12 +1,24 @@
-// Place that a pixel shows at a distance of one metre along the view. Needs `view`.
+// Points that a pixel shows, by their distance along the view. Needs `view`.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/decisions.h"
 
-// Return that place, relative to the eye: of all points with these clip coordinates, the one whose w is 1.
+// The points origin + distance * along, relative to the eye.
+struct PixelRay
+{
+    vec3 origin;
+    vec3 along; // of any length: 1 along the view's axis
+};
+
 // The rows need not be orthogonal: the image may be off-centre.
-vec3 pixelRay(vec2 pixel)
+PixelRay pixelRay(vec2 pixel)
 {
     vec2 ndc = pixel * 2.0 / vec2(view.width, view.height) - 1.0;
     vec3 x = view.clip_x.xyz, y = view.clip_y.xyz, w = view.clip_w.xyz;
     vec3 across = cross(x, y);
-    return (cross(y, w) * ndc.x + cross(w, x) * ndc.y + across) / dot(across, w);
+    if (isOrthographic(view))
+    {
+        vec2 place = ndc - vec2(view.clip_x.w, view.clip_y.w);
+        return PixelRay((cross(y, w) * place.x + cross(w, x) * place.y) / dot(across, w), w);
+    }
+    return PixelRay(vec3(0.0), (cross(y, w) * ndc.x + cross(w, x) * ndc.y + across) / dot(across, w));
 }

@@ -26,7 +26,7 @@ void main()
 {
     if (kComparesMaterial && loadVisibility() != kVisibilitySky)
         discard;
-    vec3 direction = normalize(pixelRay(gl_FragCoord.xy));
+    vec3 direction = normalize(pixelRay(gl_FragCoord.xy).along);
     vec3 color = push.debug_view == kViewFinal ? shadedColor(skyBackground(direction)) : imageColor(linearFromSrgb(vec3(0.08)));
     out_color = vec4(color, 1.0);
 #ifdef HEARTH_STORES_SURFACES

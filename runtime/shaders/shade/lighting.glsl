@@ -7,6 +7,7 @@
 #include "formats/gpu_shared/specialization.h"
 
 #include "runtime/shaders/scene/light_block.glsl"
+#include "runtime/shaders/scene/to_eye.glsl"
 #include "runtime/shaders/shade/brdf.glsl"
 #include "runtime/shaders/shade/layers.glsl"
 #include "runtime/shaders/shade/light_irradiance.glsl"
@@ -80,7 +81,7 @@ vec3 lit(SurfacePoint point, SurfaceUvs uvs, MaterialValues values)
     Shading shading;
     shading.roughness = values.roughness;
     shading.normal = values.normal;
-    shading.to_eye = normalizeOr(-point.position, values.normal);
+    shading.to_eye = normalizeOr(toEye(point.position), values.normal);
     shading.n_dot_v = clampedCosine(values.normal, shading.to_eye);
     shading.lobe = lobeTotal(shading.roughness, shading.n_dot_v);
     shading.albedo = surfaceAlbedo(values.base_color, values.metallic, surfaceDielectric(uvs), shading.lobe);

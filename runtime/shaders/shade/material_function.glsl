@@ -45,7 +45,7 @@ void changeMaterial(inout MaterialValues values, SurfacePoint point, SurfaceUvs 
     at.normal = point.front ? point.normal : -point.normal;
     at.tangent = point.tangent;
     at.bitangent = point.bitangent;
-    at.to_eye = normalizeOr(-point.position, at.normal);
+    at.to_eye = normalizeOr(toEye(point.position), at.normal);
     at.color = point.color;
     at.uv = uvs.sets[0];
     at.instance = point.instance;

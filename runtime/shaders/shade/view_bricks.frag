@@ -29,9 +29,10 @@ float edgeWeight(vec3 place, uint face, float pixel_voxels)
 
 void main()
 {
-    vec3 direction = normalize(pixelRay(gl_FragCoord.xy));
+    PixelRay pixel = pixelRay(gl_FragCoord.xy);
+    vec3 direction = normalize(pixel.along);
     BrickGrid grid = brick_view.grid;
-    BrickRay ray = brickMarch(grid, brickRay(grid, view.eye, direction, kBrickInfinity));
+    BrickRay ray = brickMarch(grid, brickRay(grid, view.eye + pixel.origin, direction, kBrickInfinity));
     bool lit = push.debug_view == kViewBrickLighting;
     vec3 color = lit ? toneMap(skyRadiance(sceneSky(), direction)) : linearFromSrgb(vec3(0.08));
     if (ray.inside != 0u)
@@ -45,7 +46,8 @@ void main()
         {
             float facing = 0.35 + 0.65 * abs(dot(brickFaceAxis(ray.face), direction));
             vec3 place = ray.start + ray.direction * ray.t;
-            float pixel_voxels = brickDistance(grid, ray) / (view.lod_scale * grid.voxel_size);
+            float distance = isOrthographic(view) ? 1.0 : brickDistance(grid, ray);
+            float pixel_voxels = distance / (view.lod_scale * grid.voxel_size);
             color = (brickAlbedoAt(face) * facing + brickEmissionAt(face)) * (1.0 - 0.5 * edgeWeight(place, ray.face, pixel_voxels));
         }
     }

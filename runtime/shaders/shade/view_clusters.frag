@@ -30,10 +30,8 @@ float errorRatio(Instance instance, Cluster cluster)
     if (cluster.refined_group == kNoGroup || view.threshold <= 0.0)
         return 0.0;
     Group refined = groups[cluster.refined_group];
-    vec3 relative = toEyeRelative(instance, view.eye, refined.sphere_center);
-    float distance = max(length(relative) - instance.scale_max * refined.sphere_radius, view.z_near);
-    float error_pixels = instance.scale_max * refined.error * view.lod_scale * lodFactor(view, distance) / distance;
-    return error_pixels / view.threshold;
+    ScreenError on_screen = screenError(view, instance, refined.sphere_center, refined.sphere_radius, refined.error);
+    return on_screen.pixels_m / on_screen.distance / view.threshold;
 }
 
 // From blue for the source to yellow at the error threshold.

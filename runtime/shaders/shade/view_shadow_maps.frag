@@ -12,6 +12,7 @@
 #include "runtime/shaders/scene/visibility_input.glsl"
 #include "runtime/shaders/scene/material_test.glsl"
 #include "runtime/shaders/scene/light_block.glsl"
+#include "runtime/shaders/scene/to_eye.glsl"
 #include "runtime/shaders/shade/image_color.glsl"
 #include "runtime/shaders/shade/shadow.glsl"
 
@@ -42,6 +43,6 @@ void main()
             color = mapColor(at.map) * (0.2 + 0.8 * filterShadow(at, normal, surfaceError(s)));
     }
     // dimmed by the angle to the eye, so that the shape is visible
-    float facing = 0.35 + 0.65 * abs(dot(normal, normalizeOr(s.position, vec3(0.0))));
+    float facing = 0.35 + 0.65 * abs(dot(normal, normalizeOr(toEye(s.position), vec3(0.0))));
     out_color = vec4(imageColor(color * facing), 1.0);
 }

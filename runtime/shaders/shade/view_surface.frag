@@ -10,6 +10,7 @@
 #include "runtime/shaders/scene/surface_point.glsl"
 #include "runtime/shaders/scene/resolve.glsl"
 #include "runtime/shaders/scene/light_block.glsl"
+#include "runtime/shaders/scene/to_eye.glsl"
 #include "runtime/shaders/scene/visibility_input.glsl"
 #include "runtime/shaders/scene/material_test.glsl"
 #include "runtime/shaders/shade/image_color.glsl"
@@ -101,7 +102,7 @@ vec3 skyVisibilityColor(Surface s)
         return sky.cone.axis * 0.5 + 0.5;
     if (push.debug_view == kViewAperture)
         return vec3(sky.cone.aperture * (2.0 / kVisibilityPi));
-    vec3 to_eye = normalizeOr(-point.position, normal);
+    vec3 to_eye = normalizeOr(toEye(point.position), normal);
     return vec3(specularSky(sky, values.roughness, clampedCosine(normal, to_eye), reflect(-to_eye, normal)));
 }
 
@@ -112,7 +113,7 @@ void main()
         discard;
     Surface s = resolveSurface(id, gl_FragCoord.xy);
     // dimmed by the angle to the eye, so that the shape is visible
-    float facing = 0.35 + 0.65 * abs(dot(geometricNormal(s), normalizeOr(s.position, vec3(0.0))));
+    float facing = 0.35 + 0.65 * abs(dot(geometricNormal(s), normalizeOr(toEye(s.position), vec3(0.0))));
     vec3 color;
     if (push.debug_view == kViewReceivers)
     {

@@ -16,8 +16,7 @@ std::vector<NamedCamera> listCameras(const formats::PackView& pack, const pack::
 {
     std::vector<NamedCamera> cameras{{"start", start}, {"whole scene", fitCamera(pack, player, aspect)}};
     for (uint32_t i = 0; i < pack.cameras().size(); ++i)
-        if (pack.cameras()[i].type == static_cast<uint32_t>(formats::CameraType::perspective))
-            cameras.push_back({"scene camera " + std::to_string(i), sceneCamera(pack, i)});
+        cameras.push_back({"scene camera " + std::to_string(i), sceneCamera(pack, i)});
     return cameras;
 }
 

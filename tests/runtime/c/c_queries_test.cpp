@@ -20,6 +20,9 @@ namespace
 
 using testing::HasSubstr;
 
+/// Pixels whose center lies on an edge to within the rounding of the rasterizer.
+constexpr size_t kMaxEdgePixels = 8;
+
 /// The fixture's pack, and queries of it.
 class CQueriesTest : public CApiTest
 {
@@ -77,6 +80,37 @@ protected:
         return picks;
     }
 
+    /// Compare the picked points of all pixels with hits of rays.
+    void expectPickedPoints(const hearth_frame& frame)
+    {
+        const std::vector<hearth_pick> picks = drawPicks(frame);
+        hearth_cast cast = HEARTH_CAST_INIT;
+        cast.flags = HEARTH_CAST_FRONT_SIDES;
+        const std::vector<hearth_hit> hits = castPixels(frame, cast);
+        size_t same = 0, apart = 0, covered = 0;
+        for (uint32_t i = 0; i < picks.size(); ++i)
+        {
+            hearth_hit point{};
+            ASSERT_EQ(
+                queries_.findPick(frame, kWidth, kHeight, i % kWidth, i / kWidth, picks[i], point, &text_),
+                HEARTH_OK)
+                << text_;
+            ASSERT_EQ(point.instance, picks[i].instance);
+            if (point.instance == UINT32_MAX)
+                continue;
+            ++covered;
+            same += point.cluster == hits[i].cluster && point.triangle == hits[i].triangle;
+            EXPECT_EQ(point.cluster, picks[i].cluster);
+            // edges are rounded to 1/256 of a pixel: a neighbour of the triangle that the ray hits
+            apart += !(std::abs(point.t - hits[i].t) < 1e-2f);
+            EXPECT_GE(std::min({point.weights[0], point.weights[1], 1 - point.weights[0] - point.weights[1]}),
+                      -1e-5f);
+        }
+        EXPECT_GT(covered, picks.size() / 8);
+        EXPECT_GT(same, covered - covered / 20);
+        EXPECT_LE(apart, kMaxEdgePixels);
+    }
+
     hearth_queries* handle_ = nullptr;
     Queries queries_;
     std::string text_;
@@ -89,19 +123,28 @@ hearth_frame sourceFrame()
     return frame;
 }
 
-/// Pixels whose center lies on an edge to within the rounding of the rasterizer.
-constexpr size_t kMaxEdgePixels = 8;
+hearth_frame parallelFrame()
+{
+    hearth_frame frame = sourceFrame();
+    frame.camera.y_fov_rad = 0;
+    frame.half_height = 3;
+    frame.z_far = 20;
+    return frame;
+}
 
 } // namespace
 
 TEST_F(CQueriesTest, raysHitWhatPixelsShow)
 {
-    hearth_frame frame = sourceFrame();
     hearth_move move{0, {{1, 0, 0, 0.5f}, {0, 1, 0, 0.25f}, {0, 0, 1, 0}}};
     hearth_cast cast = HEARTH_CAST_INIT;
     cast.flags = HEARTH_CAST_FRONT_SIDES;
-    for (const bool moves : {false, true})
+    for (const auto& [lens, moves] : {std::pair{sourceFrame(), false},
+                                      {parallelFrame(), false},
+                                      {sourceFrame(), true},
+                                      {parallelFrame(), true}})
     {
+        hearth_frame frame = lens;
         frame.moves = &move;
         frame.move_count = moves ? 1 : 0;
         ASSERT_EQ(queries_.place(frame.moves, frame.move_count, nullptr, 0, &text_), HEARTH_OK) << text_;
@@ -125,11 +168,12 @@ TEST_F(CQueriesTest, raysHitWhatPixelsShow)
 
 TEST_F(CQueriesTest, keptDepthIsThatOfRays)
 {
-    const hearth_frame frame = sourceFrame();
     for (const uint32_t way : {HEARTH_FRAME_MERGED, HEARTH_FRAME_SEPARATE, HEARTH_FRAME_ONE_SET})
         for (const uint32_t occlusion : {HEARTH_OCCLUSION_TWO_PHASE, HEARTH_OCCLUSION_LAST_FRAME})
             for (const bool in_parts : {false, true})
             {
+                const bool is_parallel = way == HEARTH_FRAME_MERGED && in_parts;
+                const hearth_frame frame = is_parallel ? parallelFrame() : sourceFrame();
                 hearth_renderer_description description = c_caller_description(caller_);
                 description.features = HEARTH_FEATURE_DEPTH;
                 description.frame_way = way;
@@ -154,7 +198,10 @@ TEST_F(CQueriesTest, keptDepthIsThatOfRays)
                 for (size_t i = 0; i < hits.size(); ++i)
                 {
                     const bool misses = hits[i].instance == UINT32_MAX;
-                    const float expected = misses ? 0 : frame.camera.z_near / hits[i].t;
+                    const float range = frame.z_far - frame.camera.z_near;
+                    const float expected = misses        ? 0
+                                           : is_parallel ? (frame.z_far - hits[i].t) / range
+                                                         : frame.camera.z_near / hits[i].t;
                     different += std::abs(depth[i] - expected) > 1e-3f * expected;
                     covered += !misses;
                 }
@@ -224,33 +271,8 @@ TEST_F(CQueriesTest, allLightMethodsKeepWhatPicksRead)
 
 TEST_F(CQueriesTest, pickedPointsAreWhereRaysHit)
 {
-    hearth_frame frame = sourceFrame();
-    const std::vector<hearth_pick> picks = drawPicks(frame);
-    hearth_cast cast = HEARTH_CAST_INIT;
-    cast.flags = HEARTH_CAST_FRONT_SIDES;
-    const std::vector<hearth_hit> hits = castPixels(frame, cast);
-    size_t same = 0, apart = 0, covered = 0;
-    for (uint32_t i = 0; i < picks.size(); ++i)
-    {
-        hearth_hit point{};
-        ASSERT_EQ(queries_.findPick(frame, kWidth, kHeight, i % kWidth, i / kWidth, picks[i], point, &text_),
-                  HEARTH_OK)
-            << text_;
-        ASSERT_EQ(point.instance, picks[i].instance);
-        if (point.instance == UINT32_MAX)
-            continue;
-        ++covered;
-        same += point.cluster == hits[i].cluster && point.triangle == hits[i].triangle;
-        EXPECT_EQ(point.cluster, picks[i].cluster);
-        // the rasterizer's edges are rounded to 1/256 of a pixel: a neighbour of the triangle that the ray
-        // hits
-        apart += !(std::abs(point.t - hits[i].t) < 1e-2f);
-        EXPECT_GE(std::min({point.weights[0], point.weights[1], 1 - point.weights[0] - point.weights[1]}),
-                  -1e-5f);
-    }
-    EXPECT_GT(covered, picks.size() / 8);
-    EXPECT_GT(same, covered - covered / 20);
-    EXPECT_LE(apart, kMaxEdgePixels);
+    for (const hearth_frame& frame : {sourceFrame(), parallelFrame()})
+        expectPickedPoints(frame);
 }
 
 TEST_F(CQueriesTest, charactersArePickedInTheirPose)

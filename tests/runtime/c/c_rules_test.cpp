@@ -274,6 +274,16 @@ TEST_F(CFrameRulesTest, framesThatBreakRulesAreRefused)
     EXPECT_THAT(refused([](F& f) { f.struct_size = 4; }), HasSubstr("frame has a struct_size of 4"));
     EXPECT_THAT(refused([](F& f) { f.camera.position[1] = kNan; }), HasSubstr("not finite"));
     EXPECT_THAT(refused([](F& f) { f.camera.y_fov_rad = 3.2f; }), HasSubstr("y_fov_rad"));
+    EXPECT_THAT(refused([](F& f) { f.camera.y_fov_rad = 0; }), HasSubstr("half_height"));
+    EXPECT_THAT(refused([](F& f) { f.camera.y_fov_rad = 0, f.half_height = 1, f.z_far = f.camera.z_near; }),
+                HasSubstr("z_far"));
+    EXPECT_THAT(refused(
+                    [&](F& f)
+                    {
+                        f.camera.y_fov_rad = 0, f.half_height = 1, f.z_far = 9;
+                        f.lod_knots = torn, f.lod_knot_count = 1;
+                    }),
+                HasSubstr("no lod_knots"));
     EXPECT_THAT(refused([](F& f) { f.shift[1] = std::nanf(""); }), HasSubstr("shift"));
     EXPECT_THAT(refused([](F& f) { f.camera.z_near = 0; }), HasSubstr("z_near"));
     EXPECT_THAT(refused([](F& f) { f.error_pixels = -1; }), HasSubstr("error_pixels"));

@@ -284,7 +284,7 @@ private:
                               clusterBoxMax(cluster, state.grid_step)))
             return kOutcomeFrustum;
         if ((view_.flags & kCullCone) != 0 && (item.flags & kItemDoubleSided) == 0 && state.cone_valid != 0 &&
-            coneFacesAway(state, cluster))
+            coneFacesAway(view_, state, cluster))
             return kOutcomeCone;
         return kOutcomeCandidate;
     }

@@ -69,7 +69,7 @@ TEST_F(DeformationTest, cullingIsLosslessInEveryPose)
     for (int frame = 0; frame < 300; ++frame)
     {
         if (frame % 10 == 0)
-            camera = randomCamera(random, 4);
+            camera = frame % 30 == 20 ? randomOrthographicCamera(random, 4) : randomCamera(random, 4);
         const auto poses = test.randomPoses(random);
         const auto views = makeViews(poses);
         const DrawOptions options{
@@ -99,7 +99,7 @@ TEST_F(DeformationTest, eachTestAloneIsLossless)
     {
         const auto poses = poseAll(test, random);
         const auto views = makeViews(poses);
-        const Camera camera = randomCamera(random, 4);
+        const Camera camera = frame % 4 == 3 ? randomOrthographicCamera(random, 4) : randomCamera(random, 4);
         DrawOptions options{.width = 96, .height = 72, .flags = 0, .poses = views};
         const Image whole = draw(*scene, camera, options);
         for (const uint32_t flag : {kCullInstances, kCullFrustum, kCullCone})

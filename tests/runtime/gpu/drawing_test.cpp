@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/viewer/pyramid_start.h"
 #include "tests/support/gpu_fixture.h"
+#include "tests/support/lit_scene.h"
 #include "tests/support/shapes.h"
 #include "tests/support/test_scene.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <set>
 #include <thread>
@@ -103,9 +105,16 @@ TEST_F(DrawingTest, cullingOffCentreIsLossless)
     fillRocks(test, 16, 21);
     const formats::PackView pack = test.build();
     const auto scene = upload(pack);
-    for (const Float2 shift : {Float2{0.3f, -0.2f}, {-3, 2}, {0, 7}})
+    Camera parallel = lookingAtOrigin({9, 5, 7});
+    parallel.half_height = 2;
+    parallel.z_far = 30;
+    for (const auto& [lens, shift] : {std::pair{lookingAtOrigin({9, 5, 7}), Float2{0.3f, -0.2f}},
+                                      {lookingAtOrigin({9, 5, 7}), {-3, 2}},
+                                      {lookingAtOrigin({9, 5, 7}), {0, 7}},
+                                      {parallel, {0.3f, -0.2f}},
+                                      {parallel, {-2, 1.5f}}})
     {
-        Camera camera = lookingAtOrigin({9, 5, 7});
+        Camera camera = lens;
         camera.shift = shift;
         DrawOptions options{.width = 333, .height = 177, .error_pixels = 0, .flags = 0};
         const Image all = draw(*scene, camera, options);
@@ -166,7 +175,7 @@ TEST_F(DrawingTest, cullingIsLosslessWhateverWasDrawnBefore)
             switch (i % 4)
             {
             case 0: // a camera cut
-                camera = randomCamera(random, 6);
+                camera = i % 8 == 4 ? randomOrthographicCamera(random, 6) : randomCamera(random, 6);
                 break;
             case 1: // anything may have been there
                 writeNoise(targets, random);
@@ -244,6 +253,66 @@ TEST_F(DrawingTest, coneCullingRemovesTheFarSideOfARock)
     const size_t facing = draw(*scene, lookingAtOrigin({0, 0, 5}), options).list.slots.size();
     EXPECT_LT(facing, all * 7 / 10);
     EXPECT_GE(facing, all * 4 / 10);
+    Camera parallel = lookingAtOrigin({0, 0, 5});
+    parallel.half_height = 1.5f;
+    parallel.z_far = 10;
+    const size_t facing_parallel = draw(*scene, parallel, options).list.slots.size();
+    EXPECT_LT(facing_parallel, all * 7 / 10);
+    EXPECT_GE(facing_parallel, all * 4 / 10);
+}
+
+/// Parallel rays are the limit of those of a lens that goes away and narrows.
+TEST_F(DrawingTest, orthographicImagesAreThoseOfAFarLens)
+{
+    TestScene test;
+    fillRocks(test, 16, 21);
+    test.addLight(sun({0.3f, -1, -0.4f}));
+    const formats::PackView pack = test.build();
+    const auto scene = upload(pack, {.shadows = {.max_maps = 2, .texels = 2048, .splits = 1}});
+    const gpu::ShadowSphere sphere{.center = {}, .radius = 8};
+    DrawOptions options{.width = 160, .height = 120, .shadow_spheres = {&sphere, 1}};
+    for (const Float2 shift : {Float2{}, Float2{0.25f, -0.5f}})
+        for (const float error_pixels : {0.0f, 2.0f})
+        {
+            Camera parallel = lookingAtOrigin({4, 5, 7});
+            parallel.z_near = 1;
+            parallel.half_height = 3;
+            parallel.z_far = 30;
+            parallel.shift = shift;
+            options.error_pixels = error_pixels;
+            const Image image = draw(*scene, parallel, options);
+            // floats hold places 8 km away to a hundredth of a pixel
+            std::vector<size_t> other, unlike; // pixels: of other triangles, of other colours
+            for (const float back : {100.0f, 8000.0f})
+            {
+                Camera lens = parallel;
+                lens.position = parallel.position * (1 + back / length(parallel.position));
+                lens.half_height = 0;
+                lens.z_near = back - 10;
+                lens.y_fov_rad = 2 * std::atan(parallel.half_height / length(lens.position));
+                const Image far = draw(*scene, lens, options);
+                const auto seen = image.seen(), seen_far = far.seen();
+                other.push_back(0);
+                unlike.push_back(0);
+                for (size_t i = 0; i < image.color.size(); ++i)
+                {
+                    other.back() += seen[i] != seen_far[i] ? 1 : 0;
+                    int step = 0;
+                    for (int c = 0; c < 3; ++c)
+                        step =
+                            std::max(step, std::abs(channel(image.color[i], c) - channel(far.color[i], c)));
+                    unlike.back() += step > 4 ? 1 : 0;
+                }
+            }
+            const size_t shown =
+                image.color.size() - static_cast<size_t>(std::count(image.visibility.begin(),
+                                                                    image.visibility.end(), kVisibilitySky));
+            EXPECT_GT(shown, image.color.size() / 8);
+            EXPECT_LT(other[1], shown * 4 / 100) << "8 km, shift " << shift.x << ", error " << error_pixels;
+            EXPECT_LT(unlike[1], shown * 2 / 100);
+            EXPECT_LT(4 * other[1], other[0]) << "100 m";
+            EXPECT_LT(4 * unlike[1], unlike[0]);
+        }
 }
 
 TEST_F(DrawingTest, everySizeIsDrawn)

@@ -141,9 +141,9 @@ std::vector<SharedStruct> frameStructs()
 {
     return {
         HEARTH_STRUCT(FrameView, clip_x, clip_y, clip_w, planes, eye, z_near, lod_scale, threshold, flags,
-                      instance_count, width, height, corner_cosine, reserved, lod_curve, material_inputs),
+                      instance_count, width, height, corner_cosine, depth_scale, lod_curve, material_inputs),
         HEARTH_STRUCT(OcclusionView, clip_x, clip_y, clip_w, eye, z_near, width, height, level_count,
-                      reserved),
+                      depth_scale),
         HEARTH_STRUCT(Material, base_color, emissive, alpha_cutoff, metallic, roughness, normal_scale,
                       occlusion_strength, flags, alpha_mode, textures, uv_sets, uv_rows, parameters,
                       motion_bound, reserved0, reserved1, reserved2),
@@ -180,7 +180,7 @@ std::vector<SharedStruct> frameStructs()
         HEARTH_STRUCT(BrickLight, code, rest),
         HEARTH_STRUCT(BrickLocation, xy, z),
         HEARTH_STRUCT(GatherView, clip_x, clip_y, clip_w, eye_step, history_frames, eye, frame, tiles_x,
-                      tiles_y, has_history, tile_angle),
+                      tiles_y, has_history, tile_angle, reserved, tile_size),
         HEARTH_STRUCT(GatherPoint, position, count, normal, sky, mean, has_surface, red, green, blue, wide,
                       reserved),
     };

@@ -370,6 +370,36 @@ TEST(FitCamera, showsEveryVertexBetweenTheSides)
         }
 }
 
+TEST(SceneCamera, anOrthographicOneIsAsHighAsItSays)
+{
+    TestScene test;
+    test.addInstance(test.addMesh(withMaterial(shapes::rock(4, 0.2f), kInvalidIndex)), Affine3{});
+    formats::CameraRecord record{};
+    record.node = 0;
+    record.type = static_cast<uint32_t>(formats::CameraType::orthographic);
+    record.x_magnification = 3;
+    record.y_magnification = -2; // glTF does not forbid it
+    record.z_far = 50;
+    record.world_from_camera = translated({1, 2, 3});
+    test.model().cameras = {record};
+    const formats::PackView pack = test.build();
+    const shared::Camera camera = viewer::sceneCamera(pack, 0);
+    EXPECT_GT(camera.z_near, 0);
+    const shared::FrameView view = shared::makeFrameView(camera, 400, 200, 1, 1);
+    ASSERT_TRUE(shared::isOrthographic(view));
+    // the middle of the image's upper edge, and its right edge, near and far
+    for (const float distance : {camera.z_near, 49.0f})
+    {
+        const Float4 top = shared::clipPosition(view, {0, 2, -distance});
+        const Float4 right = shared::clipPosition(view, {4, 0, -distance});
+        EXPECT_NEAR(top.x, 0, 1e-6f);
+        EXPECT_NEAR(top.y, -1, 1e-6f);
+        EXPECT_NEAR(right.x, 1, 1e-6f);
+        EXPECT_NEAR(top.z, (50 - distance) / (50 - camera.z_near), 1e-6f);
+        EXPECT_EQ(top.w, 1);
+    }
+}
+
 TEST(FitCamera, standsSomewhereSensibleInAnEmptyScene)
 {
     TestScene test;

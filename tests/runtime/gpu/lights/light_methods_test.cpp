@@ -195,6 +195,7 @@ protected:
 };
 
 constexpr shared::Camera kOverview{.position = {8, 4, 9}, .target = {0, 0, 0}};
+constexpr shared::Camera kParallel{.position = {8, 4, 9}, .target = {0, 0, 0}, .half_height = 4, .z_far = 40};
 
 } // namespace
 
@@ -224,6 +225,7 @@ TEST_F(LightMethodsTest, drawOneImageByAFewLights)
     addLights(4, 8);
     load();
     expectOneImage(kOverview);
+    expectOneImage(kParallel);
 }
 
 /// Methods that light surfaces apart from their materials light these where they are shaded.

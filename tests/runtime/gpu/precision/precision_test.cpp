@@ -33,7 +33,7 @@ const std::map<std::string, double>& relaxedShares()
                                                          {"surfaces_sky_frag", 5.8},
                                                          {"surfaces_shadowed_frag", 25},
                                                          {"surfaces_gi_frag", 14},
-                                                         {"surfaces_shadowed_gi_frag", 12.8},
+                                                         {"surfaces_shadowed_gi_frag", 12.7},
                                                          {"summed_frag", 28},
                                                          {"summed_shadowed_frag", 26},
                                                          {"summed_gi_frag", 14},
@@ -46,22 +46,22 @@ const std::map<std::string, double>& relaxedShares()
                                                          {"marked_shadowed_frag", 21},
                                                          {"marked_gi_frag", 14},
                                                          {"marked_shadowed_gi_frag", 11},
-                                                         {"sum_lights_frag", 3},
+                                                         {"sum_lights_frag", 2.8},
                                                          {"sum_lights_shadowed_frag", 1},
                                                          {"sum_light_volume_frag", 3},
                                                          {"sum_light_volume_shadowed_frag", 1},
-                                                         {"join_lights_frag", 3},
+                                                         {"join_lights_frag", 2.8},
                                                          {"join_lights_shadowed_frag", 1},
                                                          {"join_light_volume_frag", 3},
                                                          {"join_light_volume_shadowed_frag", 1},
-                                                         {"join_encoded_lights_frag", 3},
+                                                         {"join_encoded_lights_frag", 2.7},
                                                          {"join_encoded_lights_shadowed_frag", 1},
                                                          {"join_encoded_light_volume_frag", 3},
                                                          {"join_encoded_light_volume_shadowed_frag", 1},
-                                                         {"add_lights_frag", 22},
+                                                         {"add_lights_frag", 20.7},
                                                          {"add_lights_shadowed_frag", 11},
-                                                         {"add_light_volume_frag", 25},
-                                                         {"add_light_volume_shadowed_frag", 12}};
+                                                         {"add_light_volume_frag", 23.1},
+                                                         {"add_light_volume_shadowed_frag", 11.9}};
     return shares;
 }
 

@@ -1,0 +1,9 @@
+// Needs `view`.
+// SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#include "formats/gpu_shared/decisions.h"
+
+// Vector from a point, relative to the eye, back to where its ray begins: the eye, or the plane across it.
+vec3 toEye(vec3 position)
+{
+    return isOrthographic(view) ? view.clip_w.xyz * -dot(view.clip_w.xyz, position) : -position;
+}
