@@ -413,6 +413,18 @@ TEST_F(CallerTest, itIsToldThatItsDeviceHasNoTexturesOfSixteenBits)
                                    "device cannot filter R16G16B16A16_UNORM [W1401]"));
 }
 
+TEST_F(CallerTest, aColorFormatThatTheDeviceCannotDrawIsNamed)
+{
+    spy.missing_format = VK_FORMAT_B10G11R11_UFLOAT_PACK32;
+    const auto renderer =
+        gpu::Renderer::create(description(), {.color_format = VK_FORMAT_B10G11R11_UFLOAT_PACK32});
+    ASSERT_FALSE(renderer.ok());
+    EXPECT_EQ(renderer.error().issue, Issue::device);
+    EXPECT_THAT(renderer.error().detail,
+                testing::HasSubstr("cannot render to B10G11R11_UFLOAT_PACK32: images that frames show"));
+    EXPECT_TRUE(gpu::Renderer::create(description()).ok());
+}
+
 TEST_F(CallerTest, itIsToldWhatIsDegraded)
 {
     std::vector<std::string> messages;

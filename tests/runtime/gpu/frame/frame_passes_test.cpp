@@ -644,6 +644,16 @@ TEST(FramePasses, finalPassesTakeFewBytes)
     EXPECT_DOUBLE_EQ(low(c), in_tile + 8 + levels + 1 + last_level + 8 + levels + 1 + last_level);
 }
 
+TEST(FramePasses, theImageTakesTheBytesOfItsFormat)
+{
+    FrameConfiguration c{.occlusion = OcclusionCulling::off};
+    const double usual = measureTraffic(describeFrame(c)).low;
+    c.color_format = VK_FORMAT_B10G11R11_UFLOAT_PACK32;
+    EXPECT_DOUBLE_EQ(measureTraffic(describeFrame(c)).low, usual);
+    c.color_format = VK_FORMAT_R16G16B16A16_SFLOAT;
+    EXPECT_DOUBLE_EQ(measureTraffic(describeFrame(c)).low, usual + 4);
+}
+
 TEST(FramePasses, lightsBehindShadingTakeTheBytesOfSurfaces)
 {
     FrameConfiguration c{.occlusion = OcclusionCulling::off, .materials = MaterialTest::id};
