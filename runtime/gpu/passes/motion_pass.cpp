@@ -15,6 +15,8 @@ namespace
 /// only its share lies along the axis.
 Float2 axisShift(const shared::FrameView& view)
 {
+    if (shared::isOrthographic(view))
+        return {view.clip_x.w, view.clip_y.w};
     const Float3 axis = shared::row3(view.clip_w);
     return {dot(shared::row3(view.clip_x), axis), dot(shared::row3(view.clip_y), axis)};
 }
@@ -24,7 +26,8 @@ shared::MotionPush makePush(const Scene& scene, const MotionTargets& targets)
     const bool has_earlier = targets.earlierView().has_value();
     const shared::FrameView& now = targets.view();
     const shared::FrameView& then = has_earlier ? *targets.earlierView() : now;
-    const Float2 shift = axisShift(now), earlier_shift = axisShift(then);
+    const bool is_orthographic = shared::isOrthographic(then);
+    const Float2 shift = axisShift(now), earlier_shift = is_orthographic ? Float2{} : axisShift(then);
     shared::MotionPush push{.clip_x = then.clip_x,
                             .clip_y = then.clip_y,
                             .clip_w = then.clip_w,
@@ -36,6 +39,7 @@ shared::MotionPush makePush(const Scene& scene, const MotionTargets& targets)
                             .reserved2 = 0};
     push.clip_x.w = earlier_shift.x - shift.x;
     push.clip_y.w = earlier_shift.y - shift.y;
+    push.clip_w.w = is_orthographic ? 1.0f : 0.0f;
     if (!has_earlier)
         return push;
     push.first_instance =

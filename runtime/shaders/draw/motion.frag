@@ -36,7 +36,10 @@ void main()
     uint id = texelFetch(visibility, ivec2(gl_FragCoord.xy), 0).x;
     vec3 now = vec3(0.0), before = vec3(0.0);
     if (id == kVisibilitySky)
-        now = before = pixelRay(gl_FragCoord.xy);
+    {
+        PixelRay ray = pixelRay(gl_FragCoord.xy);
+        now = before = ray.origin + ray.along;
+    }
     else
     {
         Surface s = resolveSurface(id, gl_FragCoord.xy);
@@ -47,7 +50,8 @@ void main()
         }
     }
     vec4 clip = clipPosition(view, now);
-    vec3 earlier = vec3(dot(push.clip_x.xyz, before), dot(push.clip_y.xyz, before), dot(push.clip_w.xyz, before));
+    vec3 earlier = vec3(dot(push.clip_x.xyz, before), dot(push.clip_y.xyz, before),
+                        push.clip_w.w != 0.0 ? 1.0 : dot(push.clip_w.xyz, before));
     motion = vec2(kMotionUnseen);
     if (earlier.z > 0.0)
     {

@@ -1,5 +1,8 @@
 // Needs `view`.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
+#ifndef HEARTH_TO_EYE_GLSL
+#define HEARTH_TO_EYE_GLSL
+
 #include "formats/gpu_shared/decisions.h"
 
 // Vector from a point, relative to the eye, back to where its ray begins: the eye, or the plane across it.
@@ -7,3 +10,5 @@ vec3 toEye(vec3 position)
 {
     return isOrthographic(view) ? view.clip_w.xyz * -dot(view.clip_w.xyz, position) : -position;
 }
+
+#endif

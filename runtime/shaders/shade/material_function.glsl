@@ -2,6 +2,7 @@
 // the functions, and chooses the one of a number.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/gpu_shared/shading.h"
+#include "runtime/shaders/scene/to_eye.glsl"
 
 layout(constant_id = kConstantMaterialFunction) const uint kMaterialFunction = 0u;
 
