@@ -179,6 +179,15 @@ HEARTH_CONSTANT uint kPostRadiance = 0; ///< the frame, or a level of bloom
 HEARTH_CONSTANT uint kPostBloom = 1;    ///< coarser levels
 HEARTH_CONSTANT uint kPostExposure = 2; ///< of the last frame, or of this one
 
+/// Set of the temporal filter: it has no other.
+HEARTH_CONSTANT uint kSetTemporal = 0;
+
+HEARTH_CONSTANT uint kTemporalColor = 0;
+HEARTH_CONSTANT uint kTemporalMotion = 1;
+HEARTH_CONSTANT uint kTemporalDistances = 2;
+HEARTH_CONSTANT uint kTemporalEarlierDistances = 3; ///< of the frame before; as the next one
+HEARTH_CONSTANT uint kTemporalHistory = 4;
+
 HEARTH_SHARED_END
 
 #endif

@@ -83,6 +83,8 @@ struct PickPush
 /// exact in half floats.
 HEARTH_CONSTANT float kMotionUnseen = 32768.0f;
 HEARTH_CONSTANT float kMaxMotion = 16384.0f;
+/// Distance of the sky and of what is farther, metres: the largest half float.
+HEARTH_CONSTANT float kMaxMotionDistance = 65504.0f;
 
 /// Motion vectors: the frame before with the same targets.
 struct MotionPush
@@ -98,6 +100,12 @@ struct MotionPush
     uint reserved0;
     uint reserved1;
     uint reserved2;
+};
+
+/// Temporal filter.
+struct TemporalPush
+{
+    uint has_history; ///< 0: the frame stays as it is
 };
 
 /// Listing of proxies that cast shadows.

@@ -459,6 +459,49 @@ hearth_result hearth_record_motion(hearth_scene* scene, hearth_targets* targets,
                         return usage("the scene's last frame is not a whole one with the targets");
                     scene->motion->record(scene->renderer->renderer->device(), commands, *scene->scene,
                                           targets->targets);
+                    targets->motion_frame = targets->targets.motion().frame();
+                    return success();
+                });
+}
+
+hearth_result hearth_get_jitter(uint32_t number, uint32_t width, uint32_t height, float* shift_x,
+                                float* shift_y, char* message, size_t message_size)
+{
+    return call({message, message_size}, __func__,
+                [&]() -> Status
+                {
+                    if (shift_x == nullptr || shift_y == nullptr)
+                        return usage("shift_x or shift_y is NULL");
+                    if (width == 0 || height == 0)
+                        return usage("width or height is 0");
+                    const Float2 jitter = gpu::jitterShift(number, {width, height});
+                    *shift_x = jitter.x;
+                    *shift_y = jitter.y;
+                    return success();
+                });
+}
+
+hearth_result hearth_record_anti_aliasing(hearth_scene* scene, hearth_targets* targets,
+                                          VkCommandBuffer commands, uint32_t reset)
+{
+    if (scene == nullptr)
+        return HEARTH_ERROR_USAGE;
+    return call(scene->renderer->message(), __func__,
+                [&]() -> Status
+                {
+                    if (targets == nullptr || commands == VK_NULL_HANDLE)
+                        return usage("targets or commands is NULL");
+                    if (reset > 1)
+                        return usage("reset is neither 0 nor 1");
+                    if (!targets->targets.options().has_temporal_filter)
+                        return usage("the targets lack HEARTH_TARGETS_ANTI_ALIASING: create them with that "
+                                     "flag");
+                    if (targets->scene.lock() != scene->scene || targets->motion_frame == 0 ||
+                        targets->motion_frame != targets->targets.motion().frame())
+                        return usage(
+                            "hearth_record_motion has not been recorded for the targets' last frame");
+                    scene->renderer->temporal->record(scene->renderer->renderer->device(), commands,
+                                                      targets->targets, reset == 1);
                     return success();
                 });
 }

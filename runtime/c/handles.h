@@ -3,9 +3,10 @@
 #pragma once
 
 #include "runtime/c/call.h"
-#include "runtime/gpu/passes/motion_pass.h"
 #include "runtime/gpu/passes/pick_pass.h"
 #include "runtime/gpu/renderer.h"
+#include "runtime/gpu/temporal/motion_pass.h"
+#include "runtime/gpu/temporal/temporal_pass.h"
 #include "runtime/pack/light_player.h"
 #include "runtime/pack/pack.h"
 #include "runtime/pack/pose_player.h"
@@ -59,6 +60,7 @@ struct hearth_renderer
     hearth_memory_hooks memory{}; ///< the renderer below refers to them, and to the next one
     hearth::gpu::MaterialShaders material_shaders;
     std::unique_ptr<hearth::gpu::Renderer> renderer;
+    std::optional<hearth::gpu::TemporalPass> temporal; ///< once targets ask for it
     bool shows_overdraw = false;
     uint32_t scene_count = 0;
     uint32_t targets_count = 0;
@@ -108,4 +110,5 @@ struct hearth_targets
     hearth::gpu::FrameTargets targets;
     /// scene that the targets belong to, once a frame is recorded
     std::weak_ptr<const hearth::gpu::Scene> scene{};
+    uint64_t motion_frame = 0; ///< frame that motion vectors were recorded for last; 0: none
 };

@@ -507,7 +507,10 @@ enum
     HEARTH_TARGETS_PREPASS = 128,
     HEARTH_TARGETS_CLASSIC_PREPASS = 256,
     HEARTH_TARGETS_ENCODED_PREPASS = 512,
-    HEARTH_TARGETS_MOTION = 1024 /* hearth_record_motion may follow a frame; implies KEEP_VISIBILITY */
+    HEARTH_TARGETS_MOTION = 1024, /* hearth_record_motion may follow a frame; implies KEEP_VISIBILITY */
+    /* hearth_record_anti_aliasing may follow a frame; implies MOTION. Without images of the caller, in
+     * R8G8B8A8_SRGB. */
+    HEARTH_TARGETS_ANTI_ALIASING = 2048
 };
 
 /* State of an image, as a barrier names it. */
@@ -579,6 +582,9 @@ typedef struct hearth_targets_info
     /* since 1.8: R16G16_SFLOAT, of hearth_record_motion. Usage COLOR_ATTACHMENT, SAMPLED and TRANSFER_SRC.
      * With HEARTH_TARGETS_MOTION; else `image` is VK_NULL_HANDLE. */
     hearth_image motion;
+    /* since 1.8: R8G8B8A8_SRGB, the frame that hearth_record_anti_aliasing has filtered. Usage
+     * COLOR_ATTACHMENT and TRANSFER_SRC. With HEARTH_TARGETS_ANTI_ALIASING; else `image` is VK_NULL_HANDLE. */
+    hearth_image filtered;
 } hearth_targets_info;
 
 #define HEARTH_IMAGE_INIT                                                                                    \
@@ -591,7 +597,7 @@ typedef struct hearth_targets_info
 #define HEARTH_TARGETS_INFO_INIT                                                                             \
     {                                                                                                        \
         sizeof(hearth_targets_info), 0, 0, 0, HEARTH_IMAGE_INIT, HEARTH_IMAGE_INIT, 0, 0, HEARTH_IMAGE_INIT, \
-            HEARTH_IMAGE_INIT                                                                                \
+            HEARTH_IMAGE_INIT, HEARTH_IMAGE_INIT                                                             \
     }
 
 HEARTH_API hearth_result hearth_targets_get_info(const hearth_targets* targets, hearth_targets_info* info);
@@ -1493,6 +1499,29 @@ HEARTH_API hearth_result hearth_record_missing(hearth_scene* scene, hearth_targe
  * errors: USAGE. */
 HEARTH_API hearth_result hearth_record_motion(hearth_scene* scene, hearth_targets* targets,
                                               VkCommandBuffer commands);
+
+/* Frames after which the shifts of hearth_get_jitter repeat (1.8): what rests has the mean of them all. */
+#define HEARTH_JITTER_FRAMES 32u
+
+/* Get the jitter of frame `number` for temporal anti-aliasing (1.8), up to half a pixel each way, to be added
+ * to hearth_frame.shift. The same on every device.
+ * width, height  of the targets; above 0
+ * errors: USAGE. */
+HEARTH_API hearth_result hearth_get_jitter(uint32_t number, uint32_t width, uint32_t height, float* shift_x,
+                                           float* shift_y, char* message, size_t message_size);
+
+/* Record temporal anti-aliasing of a whole frame (1.8), after hearth_record_motion of the frame: draws
+ * hearth_targets_info.filtered, the mean of this frame and of those before that motion vectors lead to, where
+ * their colours fit the pixel's neighbours and nothing hid what it shows. Filters frames behind exposure,
+ * bloom and tone curve, so that no sample outshines the others of its pixel. Frames have the shifts of
+ * hearth_get_jitter, one after the other. A frame whose frame before with these targets was not filtered is
+ * drawn as it is.
+ * reset  1: leave earlier frames out, as after a cut: the frame is drawn as it is; or 0
+ * Outside a render pass; clobbers graphics state. On tile-based GPUs it costs 40 bytes a pixel beside those of
+ * the motion vectors: distances (4 written, 8 read), vectors and frame (4 read each), history (8 read, 8
+ * written), the filtered frame (4 written). errors: USAGE. */
+HEARTH_API hearth_result hearth_record_anti_aliasing(hearth_scene* scene, hearth_targets* targets,
+                                                     VkCommandBuffer commands, uint32_t reset);
 
 /* Record the page requests of a frame of a scene with a budget, without drawing. Moves nothing. To prefetch a
  * view, record such frames until settled_serial reaches the serial of the first of them. errors: USAGE. */

@@ -466,6 +466,11 @@ public:
     {
         return hearth_record_motion(get(), targets.get(), commands);
     }
+    [[nodiscard]] hearth_result recordAntiAliasing(Targets& targets, VkCommandBuffer commands,
+                                                   bool reset = false)
+    {
+        return hearth_record_anti_aliasing(get(), targets.get(), commands, reset ? 1 : 0);
+    }
     [[nodiscard]] hearth_result preparePicks() { return hearth_scene_prepare_picks(get()); }
     [[nodiscard]] hearth_result recordPicks(Targets& targets, VkCommandBuffer commands,
                                             const hearth_pixels& pixels, VkBuffer destination,

@@ -125,6 +125,7 @@ static_assert(offsetof(hearth_frame_counters, early_clusters) == offsetof(FrameC
 static_assert(sizeof(hearth_transform) == sizeof(Affine3d) && alignof(hearth_transform) == alignof(Affine3d));
 
 static_assert(HEARTH_MAX_PICKS == shared::kMaxPicks);
+static_assert(HEARTH_JITTER_FRAMES == gpu::kJitterFrames);
 static_assert(sizeof(hearth_pick) == sizeof(shared::Pick) &&
               offsetof(hearth_pick, cluster) == offsetof(shared::Pick, cluster) &&
               offsetof(hearth_pick, triangle) == offsetof(shared::Pick, triangle));

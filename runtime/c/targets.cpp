@@ -110,6 +110,15 @@ hearth_image makeMotion(const gpu::Image& image)
             .after = {gpu::kMotionLayout, gpu::kMotionReaders, gpu::kMotionReads}};
 }
 
+/// Return the filtered frame, which a pass behind the motion vectors draws.
+hearth_image makeFiltered(const gpu::Image& image)
+{
+    return {.image = image.handle.get(),
+            .format = image.format,
+            .before = {VK_IMAGE_LAYOUT_UNDEFINED, gpu::kFilterReaders, gpu::kFilterReads},
+            .after = {VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, gpu::kFilterReaders, gpu::kFilterReads}};
+}
+
 uint32_t toLightPaths(uint32_t flags)
 {
     constexpr std::pair<uint32_t, gpu::LightPath> kPaths[] = {
@@ -135,11 +144,20 @@ Status check(const hearth_renderer& renderer, const hearth_targets_description& 
         HEARTH_TARGETS_KEEP_VISIBILITY | HEARTH_TARGETS_SPLIT | HEARTH_TARGETS_COUNT_MISSING |
         HEARTH_TARGETS_BLOOM | HEARTH_TARGETS_DEFERRED | HEARTH_TARGETS_TILE_DEFERRED | HEARTH_TARGETS_STACK |
         HEARTH_TARGETS_PREPASS | HEARTH_TARGETS_CLASSIC_PREPASS | HEARTH_TARGETS_ENCODED_PREPASS |
-        HEARTH_TARGETS_MOTION;
+        HEARTH_TARGETS_MOTION | HEARTH_TARGETS_ANTI_ALIASING;
     if ((description.flags & ~kFlags) != 0)
         return usage("flags has bits that this version does not know");
     if ((description.output_width == 0) != (description.output_height == 0))
         return usage("output_width or output_height is 0");
+    if ((description.flags & HEARTH_TARGETS_ANTI_ALIASING) != 0 &&
+        ((description.output_width != 0 && description.output_width != description.width) ||
+         (description.output_height != 0 && description.output_height != description.height)))
+        return usage("HEARTH_TARGETS_ANTI_ALIASING needs an output of the size that is drawn");
+    if ((description.flags & HEARTH_TARGETS_ANTI_ALIASING) != 0 &&
+        (description.color_count != 0 || renderer.renderer->colorFormat().format != VK_FORMAT_R8G8B8A8_SRGB))
+        return usage(
+            "HEARTH_TARGETS_ANTI_ALIASING filters an image of the targets in R8G8B8A8_SRGB: leave out colors "
+            "and color_format, and copy hearth_targets_info.filtered");
     const bool needs_final_pass =
         (description.flags & HEARTH_TARGETS_BLOOM) != 0 || description.output_width != 0;
     if (needs_final_pass && !renderer.renderer->hasFinalPasses())
@@ -153,6 +171,17 @@ Status check(const hearth_renderer& renderer, const hearth_targets_description& 
     return checkColors(renderer, description);
 }
 
+/// Create the pass of the temporal filter, unless it is there.
+Status prepareFilter(hearth_renderer& handle, const hearth_targets_description& description)
+{
+    if ((description.flags & HEARTH_TARGETS_ANTI_ALIASING) == 0 || handle.temporal)
+        return success();
+    HEARTH_ASSIGN_OR_RETURN(gpu::TemporalPass made,
+                            gpu::TemporalPass::create(handle.renderer->device(), handle.renderer->layouts()));
+    handle.temporal.emplace(std::move(made));
+    return success();
+}
+
 gpu::TargetOptions toOptions(const hearth_targets_description& description)
 {
     gpu::TargetOptions options{.occlusion = toOcclusion(description.occlusion),
@@ -162,7 +191,9 @@ gpu::TargetOptions toOptions(const hearth_targets_description& description)
                                .output = {description.output_width, description.output_height},
                                .colors = toImages(description),
                                .light_paths = toLightPaths(description.flags),
-                               .has_motion = (description.flags & HEARTH_TARGETS_MOTION) != 0};
+                               .has_motion = (description.flags & HEARTH_TARGETS_MOTION) != 0,
+                               .has_temporal_filter =
+                                   (description.flags & HEARTH_TARGETS_ANTI_ALIASING) != 0};
     if (description.scene == nullptr)
         return options;
     const gpu::Scene& scene = *description.scene->scene;
@@ -199,6 +230,7 @@ hearth_result hearth_targets_create(hearth_renderer* renderer, const hearth_targ
                         return usage("targets is NULL");
                     HEARTH_TRY(checkStruct("description", description));
                     HEARTH_TRY(check(*renderer, *description));
+                    HEARTH_TRY(prepareFilter(*renderer, *description));
                     HEARTH_ASSIGN_OR_RETURN(
                         gpu::FrameTargets made,
                         renderer->renderer->createTargets({description->width, description->height},
@@ -243,6 +275,8 @@ hearth_result hearth_targets_get_info(const hearth_targets* targets, hearth_targ
                         info->depth = makeDepth(t.depth());
                     if (t.options().has_motion)
                         info->motion = makeMotion(t.motion().image());
+                    if (t.options().has_temporal_filter)
+                        info->filtered = makeFiltered(t.temporal().filtered());
                     return success();
                 });
 }

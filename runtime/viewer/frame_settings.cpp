@@ -157,7 +157,8 @@ gpu::TargetOptions targetOptions(const FrameSettings& settings, const gpu::Scene
             .may_bloom = needsBloomLevels(settings),
             .output = output,
             .keeps_radiance = settings.keeps_radiance,
-            .light_paths = lightPaths(settings)};
+            .light_paths = lightPaths(settings),
+            .has_temporal_filter = settings.is_filtered};
 }
 
 gpu::FrameInput makeFrame(const FrameSettings& settings, const shared::Camera& camera,

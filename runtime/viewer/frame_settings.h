@@ -32,6 +32,7 @@ struct FrameSettings
     gpu::PostSettings post;
     std::optional<VkExtent2D> render_size; ///< pixels that are drawn; none: those of the image
     bool keeps_radiance = false;           ///< as gpu::TargetOptions; in half floats
+    bool is_filtered = false;              ///< TargetOptions::has_temporal_filter
 };
 
 /// Value and its name for people.

@@ -243,6 +243,8 @@ const std::vector<Layer>& layers()
           "runtime/gpu/textures", "runtime/gpu/materials", "runtime/gpu/scene", "runtime/gpu/post"}},
         {"runtime/gpu/light_passes",
          {"formats", "runtime/shaders", "runtime/gpu/scene", "runtime/gpu/passes"}},
+        {"runtime/gpu/temporal",
+         {"formats", "runtime/shaders", "runtime/gpu/vulkan", "runtime/gpu/scene", "runtime/gpu/passes"}},
         {"runtime/gpu/statistics",
          {"formats", "runtime/shaders", "runtime/gpu/vulkan", "runtime/gpu/scene", "runtime/gpu/passes"}},
         {"runtime/gpu",

@@ -54,7 +54,8 @@ Result<FrameTargets> FrameTargets::create(const Device& device, const FramePasse
                          "the device cannot render " + std::to_string(size.width) + "x" +
                              std::to_string(size.height) + " pixels"};
     FrameTargets t(device, extent, options);
-    t.options_.keeps_visibility = options.keeps_visibility || options.has_motion;
+    t.options_.has_motion = options.has_motion || options.has_temporal_filter;
+    t.options_.keeps_visibility = options.keeps_visibility || t.options_.has_motion;
     HEARTH_TRY(t.createPost(device, passes, layouts));
     HEARTH_TRY(t.createImages(device, passes));
     HEARTH_TRY(t.createLeavingPasses(device, passes));
@@ -62,11 +63,23 @@ Result<FrameTargets> FrameTargets::create(const Device& device, const FramePasse
     HEARTH_TRY(t.createPyramids(device));
     HEARTH_TRY(t.createTileLists(device));
     HEARTH_TRY(t.createSets(device, layouts));
-    if (options.has_motion)
-    {
-        HEARTH_ASSIGN_OR_RETURN(t.motion_, MotionTargets::create(device, t.arena_, extent));
-    }
+    HEARTH_TRY(t.createMotion(device, layouts));
     return t;
+}
+
+/// Create the images of motion vectors and of the temporal filter, if frames may have them.
+Status FrameTargets::createMotion(const Device& device, const DrawLayouts& layouts)
+{
+    const bool is_filtered = options_.has_temporal_filter;
+    if (options_.has_motion)
+    {
+        HEARTH_ASSIGN_OR_RETURN(motion_, MotionTargets::create(device, arena_, extent_, is_filtered));
+    }
+    if (!is_filtered)
+        return success();
+    HEARTH_ASSERT(color_.extent.width == extent_.width && color_.extent.height == extent_.height);
+    HEARTH_ASSIGN_OR_RETURN(temporal_, TemporalTargets::create(device, layouts, arena_, *motion_, color_));
+    return success();
 }
 
 /// Create the images of final passes, if frames may have one.
@@ -219,10 +232,13 @@ Status FrameTargets::createColors(const Device& device, const FramePasses& passe
     }
     if (!colors_.empty())
         return success();
-    HEARTH_ASSIGN_OR_RETURN(Image own, arena_.createImage({.format = format,
-                                                           .extent = extent,
-                                                           .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
-                                                                    VK_IMAGE_USAGE_TRANSFER_SRC_BIT}));
+    const VkImageUsageFlags filtered =
+        options_.has_temporal_filter ? VkImageUsageFlags{VK_IMAGE_USAGE_SAMPLED_BIT} : 0;
+    HEARTH_ASSIGN_OR_RETURN(Image own,
+                            arena_.createImage({.format = format,
+                                                .extent = extent,
+                                                .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
+                                                         VK_IMAGE_USAGE_TRANSFER_SRC_BIT | filtered}));
     colors_.push_back(std::move(own));
     return success();
 }

@@ -7,8 +7,9 @@
 #include "runtime/gpu/frame/frame_parts.h"
 #include "runtime/gpu/frame/frame_passes.h"
 #include "runtime/gpu/passes/gather_targets.h"
-#include "runtime/gpu/passes/motion_targets.h"
+#include "runtime/gpu/post/motion_targets.h"
 #include "runtime/gpu/post/post_targets.h"
+#include "runtime/gpu/post/temporal_targets.h"
 #include "runtime/gpu/scene/draw_layouts.h"
 #include "runtime/gpu/scene/joined_sets.h"
 #include "runtime/gpu/scene/scene_frames.h"
@@ -61,6 +62,8 @@ struct TargetOptions
     uint32_t light_paths = 0;
     /// MotionPass may follow a frame. Implies keeps_visibility.
     bool has_motion = false;
+    /// TemporalPass may follow. Implies has_motion; `output` is the frame's size (asserted).
+    bool has_temporal_filter = false;
 
     bool has(LightPath path) const { return (light_paths & lightPathBit(path)) != 0; }
     /// True if frames with a path have all that it needs.
@@ -160,6 +163,10 @@ public:
     MotionTargets& motion() { return *motion_; }
     const MotionTargets& motion() const { return *motion_; }
 
+    /// Images of the temporal filter; with TargetOptions::has_temporal_filter.
+    TemporalTargets& temporal() { return *temporal_; }
+    const TemporalTargets& temporal() const { return *temporal_; }
+
     /// Gathered light (GI); with TargetOptions::gathers_light.
     GatherTargets& gather() { return *gather_; }
     const GatherTargets& gather() const { return *gather_; }
@@ -186,6 +193,7 @@ private:
         : extent_(extent), options_(options), arena_(device, 0)
     {
     }
+    Status createMotion(const Device& device, const DrawLayouts& layouts);
     Status createPost(const Device& device, const FramePasses& passes, const DrawLayouts& layouts);
     Status createImages(const Device& device, const FramePasses& passes);
     std::set<FrameResource> findStored(const FramePasses& passes) const;
@@ -255,8 +263,9 @@ private:
     VkDescriptorSet pixel_set_ = VK_NULL_HANDLE;
     shared::OcclusionView pyramid_view_{};
     shared::OcclusionView depth_view_{};
-    std::optional<GatherTargets> gather_; ///< with TargetOptions::gathers_light
-    std::optional<MotionTargets> motion_; ///< with TargetOptions::has_motion
+    std::optional<GatherTargets> gather_;     ///< with TargetOptions::gathers_light
+    std::optional<MotionTargets> motion_;     ///< with TargetOptions::has_motion
+    std::optional<TemporalTargets> temporal_; ///< with TargetOptions::has_temporal_filter
 };
 
 } // namespace hearth::gpu

@@ -116,6 +116,13 @@ Status DrawLayouts::createFrameSets(const Device& device)
         textureBinding(shared::kPixelsVisibility, kComputeStage | kFragmentStage)};
     HEARTH_ASSIGN_OR_RETURN(pixels, createSetLayout(device, pixel_bindings));
 
+    const SetBinding temporal_bindings[] = {textureBinding(shared::kTemporalColor, kFragmentStage),
+                                            textureBinding(shared::kTemporalMotion, kFragmentStage),
+                                            textureBinding(shared::kTemporalDistances, kFragmentStage),
+                                            textureBinding(shared::kTemporalEarlierDistances, kFragmentStage),
+                                            textureBinding(shared::kTemporalHistory, kFragmentStage)};
+    HEARTH_ASSIGN_OR_RETURN(temporal, createSetLayout(device, temporal_bindings));
+
     const SetBinding post_bindings[] = {textureBinding(shared::kPostRadiance, kFragmentStage),
                                         textureBinding(shared::kPostBloom, kFragmentStage),
                                         textureBinding(shared::kPostExposure, kFragmentStage)};

@@ -90,6 +90,7 @@ struct DrawLayouts
     UniqueSetLayout gather;            ///< shared::kGatherView to kGatherTexels
     UniqueSetLayout post;              ///< shared::kPost*
     UniqueSetLayout post_input;        ///< shared::kPostRadiance as an input attachment
+    UniqueSetLayout temporal;          ///< shared::kTemporal*
     UniquePipelineLayout visibility;   ///< scene, material, bins; shared::BinPush
     UniquePipelineLayout shading;      ///< scene, material, attachments; shared::ShadingPush, as the next two
     UniquePipelineLayout clusters;     ///< cluster_view, attachments: debug views of clusters

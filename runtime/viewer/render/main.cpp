@@ -4,6 +4,8 @@
 #include "runtime/gpu/frame/frame_text.h"
 #include "runtime/gpu/statistics/cull_statistics_pass.h"
 #include "runtime/gpu/statistics/light_statistics_pass.h"
+#include "runtime/gpu/temporal/motion_pass.h"
+#include "runtime/gpu/temporal/temporal_pass.h"
 #include "runtime/pack/pack.h"
 #include "runtime/viewer/animation.h"
 #include "runtime/viewer/camera_path.h"
@@ -193,9 +195,26 @@ public:
         return success();
     }
 
+    /// Create the passes of the temporal filter, if images are filtered.
+    Status prepareFilter()
+    {
+        if (!options_.is_filtered)
+            return success();
+        const gpu::Device& device = renderer_.device();
+        HEARTH_ASSIGN_OR_RETURN(gpu::MotionPass motion,
+                                gpu::MotionPass::create(device, renderer_.layouts(), scene_));
+        HEARTH_ASSIGN_OR_RETURN(gpu::TemporalPass filter,
+                                gpu::TemporalPass::create(device, renderer_.layouts()));
+        motion_.emplace(std::move(motion));
+        filter_.emplace(std::move(filter));
+        return success();
+    }
+
     /// Draw all samples of an image, at the requested size.
     Result<SampleSum> drawImage(const shared::Camera& camera, size_t number)
     {
+        if (filter_)
+            return drawFiltered(camera, number);
         const SampleGrid samples = makeSampleGrid(options_.samples);
         const VkExtent2D extent = targets_.outputExtent();
         SampleSum sum(extent.width / samples.scale, extent.height / samples.scale, samples.scale);
@@ -315,6 +334,33 @@ public:
     }
 
 private:
+    /// Draw the frames of an image, and filter them. Images of a camera path follow one another, as in a
+    /// game; before others is a cut.
+    Result<SampleSum> drawFiltered(const shared::Camera& camera, size_t number)
+    {
+        const VkExtent2D extent = targets_.extent();
+        const bool follows = number > 0 && !options_.camera_path.empty() && options_.views.empty();
+        for (uint32_t frame = 0; frame < (follows ? 1 : gpu::kJitterFrames); ++frame)
+        {
+            const Float2 shift = gpu::jitterShift(jitter_++, extent);
+            shared::Camera shifted = camera;
+            shifted.shift = {camera.shift.x + shift.x, camera.shift.y + shift.y};
+            HEARTH_TRY(draw(shifted, number));
+            HEARTH_TRY(host_.run(
+                [&](VkCommandBuffer commands)
+                {
+                    motion_->record(renderer_.device(), commands, scene_, targets_);
+                    filter_->record(renderer_.device(), commands, targets_, !follows && frame == 0);
+                    return success();
+                }));
+        }
+        HEARTH_ASSIGN_OR_RETURN(const std::vector<std::byte> pixels,
+                                host_.read(renderer_.device(), targets_.temporal().filtered(), 4));
+        SampleSum image(extent.width, extent.height, 1);
+        image.add(pixels);
+        return image;
+    }
+
     /// Go to the moves, poses and lights of that image of the clip or the stage.
     Status goTo(size_t number)
     {
@@ -441,6 +487,9 @@ private:
     std::vector<ShadowCounts> shadows_;
     std::optional<SkinningCounts> skinning_;
     LightCounts light_counts_;
+    std::optional<gpu::MotionPass> motion_; ///< where images are filtered, as the next one
+    std::optional<gpu::TemporalPass> filter_;
+    uint32_t jitter_ = 0;    ///< number of the next frame's shift
     uint64_t serial_ = 0;    ///< of the last frame
     size_t last_number_ = 0; ///< of its image
 };
@@ -470,6 +519,7 @@ gpu::SceneOptions sceneOptions(const RenderOptions& options, const formats::Pack
     scene.frames_in_flight = 1;
     scene.decode_textures = true;
     scene.shadows = fitShadows(options.shadows, pack, cameras);
+    scene.keeps_motion = options.is_filtered;
     return scene;
 }
 
@@ -650,6 +700,7 @@ Status drawPack(const RenderOptions& options, const formats::PackView& pack, Vul
     HEARTH_ASSIGN_OR_RETURN(const std::vector<gpu::LampWeight> lamp_weights,
                             findLampWeights(options.lamps, pack, *scene));
     run.setLampWeights(lamp_weights);
+    HEARTH_TRY(run.prepareFilter());
     if (options.daylight)
     {
         HEARTH_ASSIGN_OR_RETURN(const gpu::DaylightChange daylight,

@@ -80,6 +80,30 @@ Status parsePasses(std::string_view text, RenderOptions& options)
     return success();
 }
 
+Status parseAntiAliasing(std::string_view text, RenderOptions& options)
+{
+    if (text != "samples" && text != "temporal")
+        return usageError("--anti-aliasing: " + quoted(text) + " is neither samples nor temporal");
+    options.is_filtered = text == "temporal";
+    return success();
+}
+
+/// Check what the temporal filter excludes, and set what it implies.
+/// has_samples  --samples is given
+Status checkFilter(RenderOptions& options, bool has_samples)
+{
+    if (!options.is_filtered)
+        return success();
+    if (has_samples && options.samples != 1)
+        return usageError("--samples and --anti-aliasing temporal exclude each other");
+    if (writesLinear(options) || options.settings.render_size)
+        return usageError(
+            "--anti-aliasing temporal excludes linear colours (-o IMAGE.exr) and --render-size");
+    options.samples = 1;
+    options.settings.is_filtered = true;
+    return success();
+}
+
 Status parseSamples(std::string_view text, RenderOptions& options)
 {
     const auto number = parseNumber<uint32_t>(text);
@@ -140,6 +164,11 @@ std::string renderHelp()
            "--frames\n"
            "      --samples N         of each pixel: 1, 4 (the default), 16 or 64: smoother leaves and "
            "wires\n"
+           "      --anti-aliasing samples|temporal\n"
+           "                          temporal: filter 32 frames of one sample, as games do; of a camera "
+           "path "
+           "32 of the\n"
+           "                          first image, then one an image\n"
            "      --stats FILE        counts and times of the passes as JSON\n"
            "      --frames N          draw N times; the times are medians\n"
            "      --dump-visibility FILE\n"
@@ -181,6 +210,8 @@ Result<RenderOptions> parseRenderOptions(std::span<const char* const> arguments)
                               has_samples = true;
                               return parseSamples(text, options);
                           });
+    command_line.addValue("--anti-aliasing",
+                          [&](std::string_view text) { return parseAntiAliasing(text, options); });
     command_line.addText("--stats", options.stats);
     command_line.addValue("--frames",
                           [&](std::string_view text) { return parseFrames(text, options.frames); });
@@ -197,6 +228,7 @@ Result<RenderOptions> parseRenderOptions(std::span<const char* const> arguments)
         return usageError("--dump-visibility needs --samples 1: it shows one triangle in each pixel");
     if (!options.visibility.empty())
         options.samples = 1;
+    HEARTH_TRY(checkFilter(options, has_samples));
     options.settings.keeps_radiance = writesLinear(options);
     if (writesLinear(options) && (options.settings.view != shared::kViewFinal || !options.views.empty() ||
                                   options.settings.render_size))

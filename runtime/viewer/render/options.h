@@ -42,7 +42,8 @@ struct RenderOptions : DrawOptions
     std::vector<Named<uint32_t>> views;
     SheetChoice sheet = SheetChoice::automatic;
     AnimationSettings animation;
-    uint32_t samples = 4; ///< of each pixel: 1, 4, 16 or 64
+    uint32_t samples = 4;     ///< of each pixel: 1, 4, 16 or 64
+    bool is_filtered = false; ///< by the temporal filter, with one sample of a pixel in each frame
     uint32_t frames = 1;
     PyramidStart pyramid = PyramidStart::previous;
     uint32_t noise_seed = 0;

@@ -439,6 +439,55 @@ TEST_F(CQueriesTest, motionVectorsThatCannotBeAreRefused)
     EXPECT_EQ(hearth_targets_destroy(targets), HEARTH_OK);
 }
 
+TEST_F(CQueriesTest, framesAreFilteredThroughTheApi)
+{
+    hearth_targets_description description = HEARTH_TARGETS_DESCRIPTION_INIT;
+    description.width = 64;
+    description.height = 48;
+    description.flags = HEARTH_TARGETS_ANTI_ALIASING;
+    hearth_targets *targets = nullptr, *without = nullptr;
+    ASSERT_EQ(hearth_targets_create(renderer_, &description, &targets), HEARTH_OK);
+    description.flags = HEARTH_TARGETS_MOTION;
+    ASSERT_EQ(hearth_targets_create(renderer_, &description, &without), HEARTH_OK);
+    hearth_targets_info info = HEARTH_TARGETS_INFO_INIT;
+    ASSERT_EQ(hearth_targets_get_info(without, &info), HEARTH_OK);
+    EXPECT_EQ(info.filtered.image, VkImage{VK_NULL_HANDLE});
+    ASSERT_EQ(hearth_targets_get_info(targets, &info), HEARTH_OK);
+    EXPECT_EQ(info.filtered.format, VK_FORMAT_R8G8B8A8_SRGB);
+    EXPECT_NE(info.motion.image, VkImage{VK_NULL_HANDLE}) << "is implied";
+    hearth_scene* scene = nullptr;
+    hearth_scene_options options = HEARTH_SCENE_OPTIONS_INIT;
+    options.flags = HEARTH_SCENE_MOTION;
+    VkCommandBuffer commands = c_caller_begin(caller_);
+    ASSERT_EQ(hearth_scene_upload(renderer_, pack_, commands, &options, &scene), HEARTH_OK);
+    const auto refused = [&](hearth_targets* into, uint32_t reset)
+    {
+        EXPECT_EQ(hearth_record_anti_aliasing(scene, into, commands, reset), HEARTH_ERROR_USAGE);
+        return std::string(hearth_last_error(renderer_));
+    };
+    hearth_frame frame = makeFrame();
+    for (uint32_t number = 0; number < 3; ++number)
+    {
+        ASSERT_EQ(hearth_get_jitter(number, 64, 48, &frame.shift[0], &frame.shift[1], nullptr, 0), HEARTH_OK);
+        EXPECT_LE(std::abs(frame.shift[0]), 1.0f / 64);
+        EXPECT_LE(std::abs(frame.shift[1]), 1.0f / 48);
+        ASSERT_EQ(hearth_record_frame(scene, targets, commands, &frame), HEARTH_OK);
+        EXPECT_THAT(refused(targets, 0), HasSubstr("hearth_record_motion has not been recorded"));
+        ASSERT_EQ(hearth_record_motion(scene, targets, commands), HEARTH_OK);
+        EXPECT_EQ(hearth_record_anti_aliasing(scene, targets, commands, number == 0 ? 1 : 0), HEARTH_OK);
+    }
+    EXPECT_THAT(refused(without, 0), HasSubstr("HEARTH_TARGETS_ANTI_ALIASING"));
+    EXPECT_THAT(refused(targets, 2), HasSubstr("reset"));
+    EXPECT_THAT(refused(nullptr, 0), HasSubstr("NULL"));
+    EXPECT_EQ(hearth_get_jitter(0, 0, 48, &frame.shift[0], &frame.shift[1], message_, sizeof(message_)),
+              HEARTH_ERROR_USAGE);
+    EXPECT_THAT(message_, HasSubstr("width or height is 0"));
+    ASSERT_EQ(c_caller_submit(caller_), VK_SUCCESS);
+    EXPECT_EQ(hearth_scene_destroy(scene), HEARTH_OK);
+    EXPECT_EQ(hearth_targets_destroy(targets), HEARTH_OK);
+    EXPECT_EQ(hearth_targets_destroy(without), HEARTH_OK);
+}
+
 TEST_F(CQueriesTest, picksThatCannotBeAreRefused)
 {
     hearth_targets_description description = HEARTH_TARGETS_DESCRIPTION_INIT;

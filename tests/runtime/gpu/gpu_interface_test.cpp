@@ -1,11 +1,12 @@
 // Tests that shaders and C++ agree about everything that crosses between them: reflects every shader of the
 // renderer and compares it with the layouts, push constants, specialization constants and structs of C++.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/gpu/passes/motion_pass.h"
 #include "runtime/gpu/passes/pick_pass.h"
 #include "runtime/gpu/receivers/receiver_pass.h"
 #include "runtime/gpu/statistics/cull_statistics_pass.h"
 #include "runtime/gpu/statistics/light_statistics_pass.h"
+#include "runtime/gpu/temporal/motion_pass.h"
+#include "runtime/gpu/temporal/temporal_pass.h"
 #include "runtime/gpu/vulkan/specialized_shader.h"
 #include "runtime/viewer/vulkan_host.h"
 #include "tests/runtime/gpu/brick_scene.h"
@@ -154,6 +155,7 @@ protected:
         prepareLights(recorded, *scene);
         EXPECT_TRUE(gpu::CullStatisticsPass::create(recorded.device(), *scene).ok());
         EXPECT_TRUE(gpu::PickPass::create(recorded.device(), recorded.layouts(), *scene).ok());
+        EXPECT_TRUE(gpu::TemporalPass::create(recorded.device(), recorded.layouts()).ok());
         EXPECT_TRUE(gpu::MotionPass::create(recorded.device(), recorded.layouts(), *scene).ok());
         const auto targets = recorded.createTargets({16, 16}, {.keeps_visibility = true});
         ASSERT_TRUE(targets.ok());

@@ -87,6 +87,7 @@ std::vector<SharedStruct> pushStructs()
         HEARTH_STRUCT(PickPush, x, y, width, height),
         HEARTH_STRUCT(MotionPush, clip_x, clip_y, clip_w, eye, first_instance, pose_rows, reserved0,
                       reserved1, reserved2),
+        HEARTH_STRUCT(TemporalPush, has_history),
         HEARTH_STRUCT(ListProxiesPush, instance_count),
         HEARTH_STRUCT(SkinningPlanPush, bin_count, first_bin, phase),
         HEARTH_STRUCT(PyramidPush, width, height),

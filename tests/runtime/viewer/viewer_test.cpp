@@ -122,6 +122,9 @@ TEST(RenderOptions, takeFourSamplesUnlessToldOtherwise)
     EXPECT_EQ(parse({"a.hearth", "-o", "a.png"})->samples, 4u);
     EXPECT_EQ(parse({"a.hearth", "-o", "a.png", "--samples", "64"})->samples, 64u);
     EXPECT_EQ(parse({"a.hearth", "-o", "a.png", "--dump-visibility", "v"})->samples, 1u);
+    EXPECT_FALSE(parse({"a.hearth", "-o", "a.png", "--anti-aliasing", "samples"})->is_filtered);
+    const auto filtered = parse({"a.hearth", "-o", "a.png", "--anti-aliasing", "temporal"});
+    EXPECT_TRUE(filtered->is_filtered && filtered->settings.is_filtered && filtered->samples == 1);
 }
 
 TEST(RenderOptions, everyOptionIsRead)
@@ -254,6 +257,12 @@ TEST(RenderOptions, mistakesAreNamed)
     expectUsage({"a.hearth", "-o", "a.png", "--view", "pretty"}, "pretty");
     expectUsage({"a.hearth", "-o", "a.png", "--samples", "2"}, "2");
     expectUsage({"a.hearth", "-o", "a.png", "--samples", "4", "--dump-visibility", "v"}, "--samples 1");
+    expectUsage({"a.hearth", "-o", "a.png", "--anti-aliasing", "fxaa"}, "neither samples nor temporal");
+    expectUsage({"a.hearth", "-o", "a.png", "--anti-aliasing", "temporal", "--samples", "4"},
+                "--samples and");
+    expectUsage({"a.hearth", "-o", "a.exr", "--anti-aliasing", "temporal"}, "linear colours");
+    expectUsage({"a.hearth", "-o", "a.png", "--anti-aliasing", "temporal", "--render-size", "9x9"},
+                "--render-size");
     for (const char* shadows : {"", "yes", "on,maps=4", "maps=0", "maps=65", "texels=1000", "kernel=4",
                                 "bias=0.5", "depth=24", "far=-1", "near=3,far=2", "size=5"})
         expectUsage({"a.hearth", "-o", "a.png", "--shadows", shadows}, "--shadows");

@@ -2,7 +2,7 @@
 // both frames.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "formats/base/half.h"
-#include "runtime/gpu/passes/motion_pass.h"
+#include "runtime/gpu/temporal/motion_pass.h"
 #include "runtime/gpu/vulkan/image_barrier.h"
 #include "tests/runtime/gpu/deformed_scene.h"
 #include "tests/support/gpu_fixture.h"

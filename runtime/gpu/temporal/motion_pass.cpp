@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "runtime/gpu/passes/motion_pass.h"
+#include "runtime/gpu/temporal/motion_pass.h"
 
 #include "formats/gpu_shared/decisions.h"
 #include "runtime/gpu/vulkan/image_barrier.h"
@@ -55,7 +55,6 @@ Result<MotionPass> MotionPass::create(const Device& device, const DrawLayouts& l
 {
     HEARTH_ASSERT(scene.tables->keeps_motion);
     MotionPass pass;
-    HEARTH_ASSIGN_OR_RETURN(pass.render_pass_, createMotionRenderPass(device));
     const NumberedSet sets[] = {{shared::kSetScene, layouts.scene.get()},
                                 {shared::kSetMotionPixels, layouts.pixels.get()}};
     HEARTH_ASSIGN_OR_RETURN(pass.layout_, createPipelineLayout(device, sets, VK_SHADER_STAGE_FRAGMENT_BIT,
@@ -64,16 +63,23 @@ Result<MotionPass> MotionPass::create(const Device& device, const DrawLayouts& l
     constants[shared::kConstantUsedSlices] = scene.used_slices;
     constants[shared::kConstantDeformed] =
         scene.deformation == nullptr ? shared::kDeformedNone : shared::kDeformedPreSkinned;
-    HEARTH_ASSIGN_OR_RETURN(pass.pipeline_,
-                            createGraphicsPipeline(device, {.vertex = shaders::post_vert,
-                                                            .fragment = shaders::motion_frag,
-                                                            .layout = pass.layout_.get(),
-                                                            .render_pass = pass.render_pass_.get(),
-                                                            .subpass = 0,
-                                                            .depth_compare = VK_COMPARE_OP_ALWAYS,
-                                                            .depth_write = false,
-                                                            .colors = 1,
-                                                            .constants = constants}));
+    for (const bool has_distances : {false, true})
+    {
+        UniqueRenderPass& render_pass = pass.render_passes_[has_distances ? 1 : 0];
+        HEARTH_ASSIGN_OR_RETURN(render_pass, createMotionRenderPass(device, has_distances));
+        HEARTH_ASSIGN_OR_RETURN(
+            pass.pipelines_[has_distances ? 1 : 0],
+            createGraphicsPipeline(
+                device, {.vertex = shaders::post_vert,
+                         .fragment = has_distances ? shaders::motion_distances_frag : shaders::motion_frag,
+                         .layout = pass.layout_.get(),
+                         .render_pass = render_pass.get(),
+                         .subpass = 0,
+                         .depth_compare = VK_COMPARE_OP_ALWAYS,
+                         .depth_write = false,
+                         .colors = has_distances ? 2u : 1u,
+                         .constants = constants}));
+    }
     return pass;
 }
 
@@ -93,9 +99,10 @@ void MotionPass::record(const Device& device, VkCommandBuffer commands, const Sc
     barrier(device, commands, kCompute, VK_ACCESS_SHADER_WRITE_BIT, kFragments, VK_ACCESS_SHADER_READ_BIT);
 
     const VkExtent2D extent = targets.extent();
+    const size_t kind = targets.motion().hasDistances() ? 1 : 0;
     VkRenderPassBeginInfo begin{};
     begin.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
-    begin.renderPass = render_pass_.get();
+    begin.renderPass = render_passes_[kind].get();
     begin.framebuffer = targets.motion().framebuffer();
     begin.renderArea.extent = extent;
     vk.vkCmdBeginRenderPass(commands, &begin, VK_SUBPASS_CONTENTS_INLINE);
@@ -106,7 +113,7 @@ void MotionPass::record(const Device& device, VkCommandBuffer commands, const Sc
     vk.vkCmdSetScissor(commands, 0, 1, &scissor);
     const VkDescriptorSet sets[] = {scene.frame().main.draw_set, targets.pixelSet()};
     const shared::MotionPush push = makePush(scene, targets.motion());
-    vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_.get());
+    vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_[kind].get());
     vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout_.get(), shared::kSetScene, 2,
                                sets, 0, nullptr);
     vk.vkCmdPushConstants(commands, layout_.get(), VK_SHADER_STAGE_FRAGMENT_BIT, 0, sizeof(push), &push);

@@ -12,7 +12,8 @@ namespace hearth::gpu
 
 /// Create the render pass that draws motion vectors: all of an image, which is then in kMotionLayout, visible
 /// to fragment and compute shaders and to copies. errors: device_failed.
-Result<UniqueRenderPass> createMotionRenderPass(const Device& device);
+/// has_distances  the same of an image of distances
+Result<UniqueRenderPass> createMotionRenderPass(const Device& device, bool has_distances);
 
 inline constexpr VkFormat kMotionFormat = VK_FORMAT_R16G16_SFLOAT;
 inline constexpr VkImageLayout kMotionLayout = VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL;
@@ -25,12 +26,20 @@ inline constexpr VkAccessFlags kMotionReads = VK_ACCESS_SHADER_READ_BIT | VK_ACC
 class MotionTargets
 {
 public:
-    /// arena  outlives the targets
+    /// arena          outlives the targets
+    /// has_distances  frames leave distances to the next one
     /// errors: device_failed.
-    static Result<MotionTargets> create(const Device& device, MemoryArena& arena, VkExtent2D extent);
+    static Result<MotionTargets> create(const Device& device, MemoryArena& arena, VkExtent2D extent,
+                                        bool has_distances);
 
     const Image& image() const { return image_; }
-    VkFramebuffer framebuffer() const { return framebuffer_.get(); }
+    bool hasDistances() const { return distances_[0].view.get() != VK_NULL_HANDLE; }
+    /// Distances along the view's axis of what pixels show, in this frame and in the one before: metres, at
+    /// most shared::kMaxMotionDistance. number: one is of the frame begun last, one of the frame before.
+    const Image& distances(uint32_t number) const { return distances_[number]; }
+    /// Number of the images of the frame begun last: frames take turns.
+    uint32_t number() const { return static_cast<uint32_t>(frame_ % 2); }
+    VkFramebuffer framebuffer() const { return framebuffers_[hasDistances() ? number() : 0].get(); }
 
     /// Begin a frame in a step of the scene (SceneTables::step).
     void beginFrame(const shared::FrameView& view, uint64_t step);
@@ -39,13 +48,19 @@ public:
     /// View of the frame begun last, and of the one before it.
     const shared::FrameView& view() const { return view_; }
     const std::optional<shared::FrameView>& earlierView() const { return earlier_view_; }
+    /// Frames begun.
+    uint64_t frame() const { return frame_; }
 
 private:
     MotionTargets() = default;
 
+    Status createFramebuffers(const Device& device, VkExtent2D extent);
+
     Image image_;
-    UniqueRenderPass render_pass_; ///< that the framebuffer was made for; MotionPass has a compatible one
-    UniqueFramebuffer framebuffer_;
+    Image distances_[2];
+    UniqueRenderPass render_pass_;      ///< that framebuffers were made for; MotionPass has a compatible one
+    UniqueFramebuffer framebuffers_[2]; ///< the second with distances
+    uint64_t frame_ = 0;
     shared::FrameView view_{};
     std::optional<shared::FrameView> earlier_view_;
     uint64_t step_ = 0;
