@@ -84,9 +84,9 @@ Status AddLightsPass::prepare(const Device& device, const DrawLayouts& layouts, 
         if (reflects && scene.bricks == nullptr)
             continue;
         const Variant variant = makeVariant(scene, method, reflects);
-        const auto [entry, fresh] = pipelines_.try_emplace(variant);
-        if (!fresh)
+        if (pipelines_.contains(variant))
             continue;
+        Pipelines pipelines; // an entry is whole: what fails half way is made again
         DrawConstants constants{};
         constants[shared::kConstantLightList] = variant.light_list;
         constants[shared::kConstantFiltersShadows] = variant.filters_shadows ? 1 : 0;
@@ -97,15 +97,17 @@ Status AddLightsPass::prepare(const Device& device, const DrawLayouts& layouts, 
             describe(shaders::post_vert, fragments.lists[reading], layouts.lit_surfaces.get());
         lists.add = true;
         lists.constants = constants;
-        HEARTH_ASSIGN_OR_RETURN(entry->second.lists, createGraphicsPipeline(device, lists));
-        if (variant.light_list != shared::kLightListVolumes)
-            continue;
-        GraphicsDescription volume = lists;
-        volume.vertex = shaders::light_volume_vert;
-        volume.fragment = fragments.volume[reading];
-        volume.cull = VK_CULL_MODE_FRONT_BIT; // the eye may be in front of the back faces only
-        volume.stencil = Stencil::take;
-        HEARTH_ASSIGN_OR_RETURN(entry->second.volume, createGraphicsPipeline(device, volume));
+        HEARTH_ASSIGN_OR_RETURN(pipelines.lists, createGraphicsPipeline(device, lists));
+        if (variant.light_list == shared::kLightListVolumes)
+        {
+            GraphicsDescription volume = lists;
+            volume.vertex = shaders::light_volume_vert;
+            volume.fragment = fragments.volume[reading];
+            volume.cull = VK_CULL_MODE_FRONT_BIT; // the eye may be in front of the back faces only
+            volume.stencil = Stencil::take;
+            HEARTH_ASSIGN_OR_RETURN(pipelines.volume, createGraphicsPipeline(device, volume));
+        }
+        pipelines_.emplace(variant, std::move(pipelines));
     }
     return success();
 }

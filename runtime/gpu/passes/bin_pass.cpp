@@ -69,9 +69,10 @@ Status BinPass::prepareDeformed(const Device& device)
 {
     if (!deformed_)
     {
-        deformed_.emplace();
+        Variants variants;
         HEARTH_TRY(createPipelines(device, casters_ ? shared::kDeformedOnDemand : shared::kDeformedPreSkinned,
-                                   *deformed_));
+                                   variants));
+        deformed_ = std::move(variants);
     }
     return success();
 }

@@ -199,11 +199,11 @@ Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLa
     const bool has_views = lightPath(output_) == LightPath::materials;
     if (has_views)
         HEARTH_TRY(prepareViews(device, layouts, variant));
-    const auto [entry, fresh] = variants_.try_emplace(variant);
-    Variant& pipelines = entry->second;
     const bool shadowed = variant.shadows != 0;
-    if (fresh)
+    auto entry = variants_.find(variant);
+    if (entry == variants_.end())
     {
+        Variant pipelines; // an entry is whole: what fails half way is made again
         const DrawConstants constants = drawConstants(variant, false);
         HEARTH_ASSIGN_OR_RETURN(const std::span<const uint32_t> own,
                                 findWords(materialShader(shadowed, false), variant));
@@ -224,7 +224,9 @@ Result<ShadingPipelines> ShadingPass::prepare(const Device& device, const DrawLa
             HEARTH_ASSIGN_OR_RETURN(pipelines.debug_view_pipeline,
                                     createGraphicsPipeline(device, description));
         }
+        entry = variants_.emplace(variant, std::move(pipelines)).first;
     }
+    const Variant& pipelines = entry->second;
     return ShadingPipelines{pipelines.normals_pipeline.get(), pipelines.final_pipeline.get(),
                             pipelines.final_gi_pipeline.get(), pipelines.debug_view_pipeline.get()};
 }
