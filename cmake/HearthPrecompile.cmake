@@ -35,7 +35,4 @@ if(HEARTH_SANITIZE)
   hearth_precompiled_library(hearth_precompiled_optimised
     HEADERS ${hearth_precompiled_headers}
     OPTIONS ${hearth_sanitized_optimisation})
-  hearth_precompiled_library(hearth_precompiled_without_exceptions_optimised
-    HEADERS ${hearth_precompiled_headers}
-    OPTIONS -fno-exceptions ${hearth_sanitized_optimisation})
 endif()

@@ -181,6 +181,10 @@ enum class IssueClass : uint8_t
       "set DISPLAY or WAYLAND_DISPLAY to a display that runs, or draw into a file with hearth-render")       \
     X(texture_format, 4008, internal, "a texture has a format that the graphics device cannot sample",       \
       "cook with textures.families for the device, or let the loader decode textures")                       \
+    X(device_memory, 4009, internal, "the graphics device has not enough memory",                            \
+      "lower memory budgets, sizes of targets or shadow maps, or close other programs")                      \
+    X(device_lost, 4010, internal, "the graphics device was lost",                                           \
+      "destroy all that was made on the device, and make it again on a new one")                             \
     X(cache_failed, 4100, warning, "a cache cannot be used as it should; the cook goes on without it",       \
       "check the folder or the server, its rights and the space left")                                       \
     X(plan_syntax, 5000, malformed, "a plan is not valid", "make it again with hearth plan")                 \

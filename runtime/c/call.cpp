@@ -20,6 +20,10 @@ hearth_result resultFromError(const Error& error)
         return HEARTH_ERROR_DEVICE_FAILED;
     case Issue::device_limit:
         return HEARTH_ERROR_DEVICE_LIMIT;
+    case Issue::device_lost:
+        return HEARTH_ERROR_DEVICE_LOST;
+    case Issue::device_memory:
+        return HEARTH_ERROR_OUT_OF_DEVICE_MEMORY;
     case Issue::streaming_budget:
         return HEARTH_ERROR_STREAMING_BUDGET;
     case Issue::out_of_memory:
@@ -164,6 +168,10 @@ const char* hearth_result_string(hearth_result result)
         return "out of memory";
     case HEARTH_ERROR_INTERNAL:
         return "a defect of Hearth";
+    case HEARTH_ERROR_DEVICE_LOST:
+        return "the graphics device was lost";
+    case HEARTH_ERROR_OUT_OF_DEVICE_MEMORY:
+        return "out of memory of the graphics device";
     default:
         return "not a result of this version";
     }

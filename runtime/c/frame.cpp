@@ -300,9 +300,9 @@ hearth_result recordParts(const char* function, FrameProgress before, FrameProgr
         HEARTH_TRY(checkTargets(*scene, targets->targets, *frame, before != kNothing || after != kNothing));
         HEARTH_TRY(before == kNothing ? beginFrame(*scene, *frame) : checkOrder(*scene, targets, before));
         HEARTH_ASSIGN_OR_RETURN(const gpu::FrameInput input, makeInput(*scene, targets->targets, *frame));
+        (scene->renderer->renderer.get()->*record)(commands, *scene->scene, targets->targets, input);
         if (before == kNothing)
             scene->to_be_recorded = false;
-        (scene->renderer->renderer.get()->*record)(commands, *scene->scene, targets->targets, input);
         scene->parts_recorded = after;
         scene->parts_targets = targets;
         targets->scene = scene->scene;
@@ -413,9 +413,9 @@ hearth_result hearth_record_prefetch(hearth_scene* scene, hearth_targets* target
             if (scene->scene->stream == nullptr)
                 return usage("the scene has no memory_budget: all of it is there");
             HEARTH_ASSIGN_OR_RETURN(const shared::FrameView view, makeView(*scene, targets->targets, *frame));
+            scene->renderer->renderer->recordPrefetch(commands, *scene->scene, targets->targets, view);
             scene->to_be_recorded = false;
             scene->parts_recorded = 0;
-            scene->renderer->renderer->recordPrefetch(commands, *scene->scene, targets->targets, view);
             return success();
         });
 }

@@ -16,6 +16,14 @@
  *   while they are open, by any number of threads. The library throws nothing; callbacks must not throw.
  * - Destroy objects before the object that they were made from, and after the frames that use them have
  *   completed. Destroying NULL does nothing.
+ * - Calls that create objects, record or begin frames may fail with DEVICE_LOST, OUT_OF_DEVICE_MEMORY and
+ *   OUT_OF_MEMORY. Without memory, the same call may be tried again. If a call that records fails, reset
+ *   `commands` and record all of them again.
+ * - After a loss, which the caller's submission may report first, nothing is in use any more: destroy scenes,
+ *   targets and renderer, then the device, and make them again with another device. Packs, players and
+ *   queries know no device: they stay.
+ * - A file that is open as a pack must not be truncated or overwritten (write another one and rename it): it
+ *   is mapped, and reading what is gone ends the process (SIGBUS). Packs in memory do not have that.
  * - Metres, radians, right-handed, +Y up. */
 #ifndef HEARTH_H
 #define HEARTH_H
@@ -47,8 +55,11 @@ enum
     HEARTH_ERROR_DEVICE_FAILED = 7,    /* a Vulkan call failed */
     HEARTH_ERROR_DEVICE_LIMIT = 8,     /* the scene or the frame is too large for the device */
     HEARTH_ERROR_STREAMING_BUDGET = 9, /* the pinned geometry exceeds the budget */
-    HEARTH_ERROR_OUT_OF_MEMORY = 10,   /* CPU memory */
-    HEARTH_ERROR_INTERNAL = 11         /* a bug of Hearth */
+    HEARTH_ERROR_OUT_OF_MEMORY = 10,   /* CPU memory; of Vulkan: VK_ERROR_OUT_OF_HOST_MEMORY */
+    HEARTH_ERROR_INTERNAL = 11,        /* a bug of Hearth */
+    HEARTH_ERROR_DEVICE_LOST = 12,     /* 1.8: a Vulkan call returned VK_ERROR_DEVICE_LOST */
+    /* 1.8: a Vulkan call or a memory hook returned VK_ERROR_OUT_OF_DEVICE_MEMORY */
+    HEARTH_ERROR_OUT_OF_DEVICE_MEMORY = 13
 };
 
 typedef struct hearth_pack hearth_pack;

@@ -95,9 +95,24 @@ static hearth_result lacking(hearth_device* device, const char* detail)
 
 static hearth_result failed(hearth_device* device, VkResult result, const char* task)
 {
-    return fail(device, HEARTH_ERROR_DEVICE_FAILED,
-                "error: cannot %s (VkResult %d) [E4003] hint: close other programs, or choose another device",
-                task, (int)result);
+    switch (result)
+    {
+    case VK_ERROR_OUT_OF_HOST_MEMORY:
+        return fail(device, HEARTH_ERROR_OUT_OF_MEMORY,
+                    "error: cannot %s: no memory [E4005] hint: close programs", task);
+    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+        return fail(device, HEARTH_ERROR_OUT_OF_DEVICE_MEMORY,
+                    "error: cannot %s: no device memory [E4009] hint: close other programs", task);
+    case VK_ERROR_DEVICE_LOST:
+        return fail(device, HEARTH_ERROR_DEVICE_LOST,
+                    "error: cannot %s: the device was lost [E4010] hint: make all again on a new device",
+                    task);
+    default:
+        return fail(
+            device, HEARTH_ERROR_DEVICE_FAILED,
+            "error: cannot %s (VkResult %d) [E4003] hint: close other programs, or choose another device",
+            task, (int)result);
+    }
 }
 
 /* ---- Creation ---- */

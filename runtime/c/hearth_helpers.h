@@ -28,7 +28,8 @@ typedef struct hearth_device_options
         sizeof(hearth_device_options), 0, NULL                                                               \
     }
 
-/* errors: USAGE, OUT_OF_MEMORY; DEVICE if there is no Vulkan, or no device fits; DEVICE_FAILED. */
+/* errors: USAGE, OUT_OF_MEMORY; DEVICE if there is no Vulkan, or no device fits; DEVICE_FAILED, DEVICE_LOST,
+ * OUT_OF_DEVICE_MEMORY. */
 HEARTH_API hearth_result hearth_device_create(const hearth_device_options* options, hearth_device** device,
                                               char* message, size_t message_size);
 
@@ -65,15 +66,15 @@ HEARTH_API hearth_result hearth_device_describe(hearth_device* device,
 /* ---- Commands that run at once ---- */
 
 /* Begin the device's command buffer, which hearth_device_submit or hearth_device_discard ends.
- * errors: USAGE, also if it has begun already; DEVICE_FAILED. */
+ * errors: USAGE, also if it has begun already; DEVICE_FAILED, DEVICE_LOST, OUT_OF_DEVICE_MEMORY. */
 HEARTH_API hearth_result hearth_device_begin(hearth_device* device, VkCommandBuffer* commands);
 
 /* Submit the commands recorded since hearth_device_begin, and wait until they have run.
- * errors: USAGE, also if nothing has begun; DEVICE_FAILED. */
+ * errors: USAGE, also if nothing has begun; DEVICE_FAILED, DEVICE_LOST, OUT_OF_DEVICE_MEMORY. */
 HEARTH_API hearth_result hearth_device_submit(hearth_device* device);
 
 /* Discard the recorded commands, for example after a call that failed while recording.
- * errors: USAGE, also if nothing has begun; DEVICE_FAILED. */
+ * errors: USAGE, also if nothing has begun; DEVICE_FAILED, DEVICE_LOST, OUT_OF_DEVICE_MEMORY. */
 HEARTH_API hearth_result hearth_device_discard(hearth_device* device);
 
 /* ---- Images and cameras ---- */
@@ -83,7 +84,7 @@ HEARTH_API hearth_result hearth_device_discard(hearth_device* device);
  * texels         4 bytes each, rows from top to bottom without gaps
  * size           bytes of `texels`: width * height * 4 or more
  * errors: USAGE, also between hearth_device_begin and its end; DEVICE if it has no host-visible memory;
- * DEVICE_FAILED. */
+ * DEVICE_FAILED, DEVICE_LOST, OUT_OF_DEVICE_MEMORY. */
 HEARTH_API hearth_result hearth_device_read_image(hearth_device* device, const hearth_image* image,
                                                   uint32_t width, uint32_t height, void* texels, size_t size);
 

@@ -83,6 +83,8 @@ Status makeShadowSpheres(hearth_scene& scene, const hearth_frame& frame)
         scene.shadow_spheres.push_back(
             {.center = center, .radius = sphere.radius, .light = sphere.light, .texels = sphere.texels});
     }
+    if (scene.scene->shadows != nullptr)
+        scene.scene->shadows->reserveSpheres(scene.shadow_spheres.size());
     return success();
 }
 

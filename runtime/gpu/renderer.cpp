@@ -3,6 +3,7 @@
 
 #include "runtime/gpu/frame/frame_plan.h"
 #include "runtime/gpu/frame/frame_way.h"
+#include "runtime/gpu/passes/frame_rollback.h"
 #include "runtime/gpu/passes/frame_update.h"
 #include "runtime/gpu/passes/visibility_reading.h"
 #include "runtime/gpu/vulkan/debug_label.h"
@@ -475,17 +476,21 @@ Status Renderer::prepareOverdraw()
 void Renderer::record(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                       const FrameInput& input) const
 {
+    FrameRollback rollback(scene, targets);
     PassRecorder passes(device_, commands, plan(scene, targets, input, false), targets);
     recordCulled(commands, scene, targets, input, passes);
     recordVisible(commands, scene, targets, input, passes);
     recordShaded(commands, scene, targets, input, passes);
+    rollback.keep();
 }
 
 void Renderer::recordCull(VkCommandBuffer commands, const Scene& scene, FrameTargets& targets,
                           const FrameInput& input) const
 {
+    FrameRollback rollback(scene, targets);
     PassRecorder passes(device_, commands, plan(scene, targets, input, true), targets);
     recordCulled(commands, scene, targets, input, passes);
+    rollback.keep();
 }
 
 /// Record up to the clusters that are drawn first.
@@ -564,6 +569,7 @@ void Renderer::recordPrefetch(VkCommandBuffer commands, const Scene& scene, Fram
                               std::span<const InstancePose> poses) const
 {
     HEARTH_ASSERT(scene.stream != nullptr && view.instance_count == scene.instance_count);
+    FrameRollback rollback(scene, targets);
     trackShadows(scene, moves, view.material_inputs);
     PassRecorder passes(device_, commands, passes_.plan({.occlusion = OcclusionCulling::off}), targets);
     passes.begin(FrameStep::update);
@@ -572,6 +578,7 @@ void Renderer::recordPrefetch(VkCommandBuffer commands, const Scene& scene, Fram
     passes.begin(FrameStep::cull);
     cull_.record(device_, commands, scene, scene.frame().main, targets.occlusionSet(), shared::kPhaseWhole);
     page_requests_.record(device_, commands, scene);
+    rollback.keep();
 }
 
 const ShadowPass& Renderer::shadowPass(const Scene& scene) const

@@ -45,9 +45,22 @@ Residency::Residency(PageGraph graph, const ResidencyOptions& options)
         pages_[page].state = State::resident;
         claimNeeded(page);
     }
-    requested_.reserve(graph_.pageCount());
-    wanted_.reserve(graph_.pageCount());
-    started_.reserve(options.max_loads);
+    reserveLists();
+}
+
+/// Give each list room for all that it may hold, so that no frame allocates, or fails half way.
+void Residency::reserveLists()
+{
+    const uint32_t count = graph_.pageCount();
+    size_t requests = count;
+    for (uint32_t page = 0; page < count; ++page)
+        requests += graph_.companions(page).size();
+    requests_.reserve(requests);
+    retiring_.reserve(count);
+    started_.reserve(options_.max_loads);
+    for (std::vector<uint32_t>* list : {&requested_, &wanted_, &evicting_, &loaded_, &failed_, &new_failures_,
+                                        &evicted_, &published_, &released_, &discarded_, &reported_failures_})
+        list->reserve(count);
 }
 
 // --- beginning of a frame

@@ -168,6 +168,7 @@ private:
 
     Residency(PageGraph graph, const ResidencyOptions& options);
 
+    void reserveLists();
     void applyEvictions();
     void releaseRetired(uint64_t completed_serial);
     void publishLoaded();

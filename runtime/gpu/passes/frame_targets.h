@@ -151,6 +151,24 @@ public:
     /// Begin a frame that draws this view: its culling tests boxes in this one and in pyramidView().
     void beginFrame(const shared::FrameView& view);
 
+    /// What frames change of the targets while they are recorded.
+    struct Progress
+    {
+        uint32_t current = 0;
+        uint32_t pyramid = 0;
+        shared::OcclusionView pyramid_view{};
+        shared::OcclusionView depth_view{};
+    };
+    Progress progress() const { return {current_, pyramid_, pyramid_view_, depth_view_}; }
+    /// Go back to an earlier state: the frames since then are not submitted.
+    void restore(const Progress& earlier)
+    {
+        current_ = earlier.current;
+        pyramid_ = earlier.pyramid;
+        pyramid_view_ = earlier.pyramid_view;
+        depth_view_ = earlier.depth_view;
+    }
+
     /// kMaterialsPerTile words per tile, rows of tiles from top to bottom.
     const Buffer& tileMaterials() const { return tile_materials_; }
     /// Tile lists of the materials, as shared::TileDraw describes.

@@ -59,7 +59,8 @@ public:
         VkSampler sampler;
         HEARTH_TRY_VK(device_.vk.vkCreateSampler(device_.handle, &info, device_.allocator, &sampler),
                       "create a sampler");
-        owned_.emplace_back(device_, sampler);
+        UniqueSampler made(device_, sampler);
+        owned_.push_back(std::move(made)); // which destroys it if that throws
         samplers_[key] = sampler;
         return sampler;
     }

@@ -63,6 +63,9 @@ public:
     /// Set a new pose from this frame on.
     void pose(const DeformedInstance& instance, const PoseRows& rows) { cache_.pose(instance, rows); }
 
+    /// Make room for the spheres of a frame, before it is recorded: planFrame then allocates nothing.
+    void reserveSpheres(size_t count) { spheres_.reserve(pack_sphere_count_ + count); }
+
     /// Plan the maps of the lights chosen last; returns the maps that the frame must draw.
     ///
     /// lights   all slots

@@ -59,6 +59,13 @@ public:
     /// completed_serial  all frames up to this one have completed; < serial, never decreases
     void beginFrame(uint64_t serial, uint64_t completed_serial);
 
+    /// Take back that the frame that was begun has been recorded: it will be recorded again.
+    void cancelRecording()
+    {
+        recorded_ = false;
+        markPoolChanged();
+    }
+
     /// Return the view to draw: its threshold is multiplied by the error scale.
     shared::FrameView scaled(const shared::FrameView& view) const;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "runtime/gpu/vulkan/device.h"
 
+#include <new>
 #include <string>
 
 namespace hearth::gpu
@@ -67,33 +68,29 @@ Result<Device> makeDevice(const DeviceDescription& description, std::span<const 
     return device;
 }
 
-void warn(const Device& device, const std::string& name, const std::string& where, const std::string& what)
+void warn(const Device& device, const std::string& name, const std::string& where,
+          std::string_view what) noexcept
+try
 {
     if (device.message_hook.warn != nullptr)
         device.message_hook.warn(device.message_hook.user,
-                                 formatMessage({Issue::degraded, name, where, what}).c_str());
+                                 formatMessage({Issue::degraded, name, where, std::string(what)}).c_str());
+}
+catch (const std::bad_alloc&)
+{
 }
 
 Error vulkanError(VkResult result, const char* what)
 {
-    const char* reason = "error";
-    switch (result)
-    {
-    case VK_ERROR_OUT_OF_HOST_MEMORY:
-        reason = "out of memory";
-        break;
-    case VK_ERROR_OUT_OF_DEVICE_MEMORY:
-        reason = "out of device memory";
-        break;
-    case VK_ERROR_DEVICE_LOST:
-        reason = "the device was lost";
-        break;
-    default:
-        break;
-    }
-    return {Issue::device_failed, "", "",
-            std::string("cannot ") + what + ": " + reason + " (VkResult " +
-                std::to_string(static_cast<int>(result)) + ")"};
+    Issue issue = Issue::device_failed;
+    if (result == VK_ERROR_OUT_OF_HOST_MEMORY)
+        issue = Issue::out_of_memory;
+    if (result == VK_ERROR_OUT_OF_DEVICE_MEMORY)
+        issue = Issue::device_memory;
+    if (result == VK_ERROR_DEVICE_LOST)
+        issue = Issue::device_lost;
+    return {issue, "", "",
+            std::string("cannot ") + what + " (VkResult " + std::to_string(static_cast<int>(result)) + ")"};
 }
 
 } // namespace hearth::gpu

@@ -9,6 +9,7 @@
 
 #include <bitset>
 #include <string>
+#include <string_view>
 #include <utility>
 
 namespace hearth::gpu
@@ -81,10 +82,14 @@ struct Device
 Result<Device> makeDevice(const DeviceDescription& description,
                           std::span<const RequiredFormat> more_formats = {});
 
-/// Warn the caller that something is degraded. Allocates only if the caller has set a hook.
-void warn(const Device& device, const std::string& name, const std::string& where, const std::string& what);
+/// Warn the caller that something is degraded. Allocates only if the caller has set a hook; without memory for
+/// the text there is no warning.
+void warn(const Device& device, const std::string& name, const std::string& where,
+          std::string_view what) noexcept;
 
-/// Make the Error of a Vulkan call that failed; `what` names the operation.
+/// Make the Error of a Vulkan call that failed: device_failed, or device_lost, device_memory, out_of_memory
+/// (of the host) by its result. Functions that say device_failed may return each of them.
+/// what  names the operation
 Error vulkanError(VkResult result, const char* what);
 
 /// Owns one Vulkan object.

@@ -124,7 +124,8 @@ Result<MemoryAllocation> MemoryArena::allocateHooked(const MemoryRequest& reques
     const MemoryHooks& hooks = device_->memory_hooks;
     MemoryAllocation piece;
     HEARTH_TRY_VK(hooks.allocate(hooks.user, request, piece), "allocate device memory");
-    hooked_.emplace_back(hooks, piece, request.needs.size);
+    HookAllocation allocation(hooks, piece, request.needs.size);
+    hooked_.push_back(std::move(allocation)); // which frees it if that throws
     if (isMapped(request.kind) && piece.mapped == nullptr)
         return vulkanError(VK_ERROR_MEMORY_MAP_FAILED, "map device memory");
     return piece;

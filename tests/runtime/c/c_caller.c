@@ -379,6 +379,28 @@ static void show_host(const c_caller* caller)
                                  0, 1, &barrier, 0, NULL, 0, NULL);
 }
 
+VkResult c_caller_read_color(c_caller* caller, const hearth_image* color, uint32_t width, uint32_t height,
+                             uint32_t* pixels)
+{
+    const VkDeviceSize bytes = (VkDeviceSize)width * height * 4;
+    readback memory = {VK_NULL_HANDLE, VK_NULL_HANDLE, NULL};
+    c_image image = {0};
+    VkResult result = create_readback(caller, bytes, &memory);
+    image.width = width;
+    image.height = height;
+    if (result == VK_SUCCESS)
+    {
+        c_caller_begin(caller);
+        copy_image(caller, color, &image, memory.buffer, 0);
+        show_host(caller);
+        result = c_caller_submit(caller);
+    }
+    if (result == VK_SUCCESS)
+        memcpy(pixels, memory.mapped, (size_t)bytes);
+    destroy_readback(caller, &memory);
+    return result;
+}
+
 static hearth_result upload(c_caller* caller, hearth_renderer* renderer, hearth_pack* pack,
                             const c_image* image, hearth_scene** scene)
 {

@@ -28,6 +28,10 @@ VkCommandBuffer c_caller_begin(c_caller* caller);
 VkResult c_caller_submit(c_caller* caller);
 VkResult c_caller_discard(c_caller* caller);
 
+/* Copies a color image of targets whose last frame has completed; pixels has width * height words. */
+VkResult c_caller_read_color(c_caller* caller, const hearth_image* color, uint32_t width, uint32_t height,
+                             uint32_t* pixels);
+
 /* An image: its inputs and, after drawing, its results. */
 typedef struct c_image
 {

@@ -329,7 +329,7 @@ TEST_F(CallerTest, itsMemoryIsGivenBackWhereThereIsNotEnough)
         allocator.refused = refused;
         const Result<std::vector<std::byte>> pixels = tryToDraw(**hooked_renderer, {}, {});
         ASSERT_FALSE(pixels.ok()) << refused;
-        EXPECT_EQ(pixels.error().issue, Issue::device_failed);
+        EXPECT_EQ(pixels.error().issue, Issue::device_memory);
         EXPECT_TRUE(allocator.live.empty()) << refused;
     }
 }
