@@ -8,10 +8,10 @@
 namespace hearth::gpu
 {
 
-/// Guard of a frame, or a part of one, that is being recorded. Without `keep`, as after an exception, the scene
-/// and the targets are at the end as if nothing had been recorded: what the same frame records again has the
-/// same result. What the frame has changed stays, as far as recording it again changes it in the same way:
-/// moves, poses, lights. Does not undo the exchange of streamed textures.
+/// Guard of a frame, or a part of one, that is being recorded. Without `keep`, as after an exception, it
+/// takes back that the scene and the targets have had the frame, so that it can be recorded again with the
+/// same result. Moves, poses and lights of the frame stay: it sets them again. Exchanges of streamed
+/// textures are not undone.
 class FrameRollback
 {
 public:

@@ -151,7 +151,7 @@ public:
     /// Begin a frame that draws this view: its culling tests boxes in this one and in pyramidView().
     void beginFrame(const shared::FrameView& view);
 
-    /// What frames change of the targets while they are recorded.
+    /// State of the targets that frames change while they are recorded.
     struct Progress
     {
         uint32_t current = 0;

@@ -82,8 +82,8 @@ struct Device
 Result<Device> makeDevice(const DeviceDescription& description,
                           std::span<const RequiredFormat> more_formats = {});
 
-/// Warn the caller that something is degraded. Allocates only if the caller has set a hook; without memory for
-/// the text there is no warning.
+/// Warn the caller that something is degraded. Allocates only if the caller has set a hook; without memory
+/// for the text there is no warning.
 void warn(const Device& device, const std::string& name, const std::string& where,
           std::string_view what) noexcept;
 

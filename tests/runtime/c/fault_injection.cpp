@@ -136,16 +136,21 @@ void freePiece(void* user, const hearth_memory_allocation* piece)
     hooks.free(hooks.user, piece);
 }
 
+/// Return null without memory.
 void* allocateBlock(size_t size, size_t alignment)
 {
-    if (takeFault(FaultPlace::heap))
-        throw std::bad_alloc();
     const size_t bytes = (size / alignment + 1) * alignment;
     void* block = alignment <= __STDCPP_DEFAULT_NEW_ALIGNMENT__ ? std::malloc(bytes)
                                                                 : std::aligned_alloc(alignment, bytes);
+    state.held.heap_blocks += block != nullptr && isInLibrary() ? 1 : 0;
+    return block;
+}
+
+void* allocateOrThrow(size_t size, size_t alignment)
+{
+    void* const block = takeFault(FaultPlace::heap) ? nullptr : allocateBlock(size, alignment);
     if (block == nullptr)
         throw std::bad_alloc();
-    state.held.heap_blocks += isInLibrary() ? 1 : 0;
     return block;
 }
 
@@ -211,12 +216,18 @@ hearth_memory_hooks faultingHooks(hearth_memory_hooks& real)
 // Replaces the operators of the program; the other forms call these.
 void* operator new(size_t size)
 {
+    return hearth::test::allocateOrThrow(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__);
+}
+
+// Never fails: callers, std::stable_sort among them, do without the memory.
+void* operator new(size_t size, const std::nothrow_t&) noexcept
+{
     return hearth::test::allocateBlock(size, __STDCPP_DEFAULT_NEW_ALIGNMENT__);
 }
 
 void* operator new(size_t size, std::align_val_t alignment)
 {
-    return hearth::test::allocateBlock(size, static_cast<size_t>(alignment));
+    return hearth::test::allocateOrThrow(size, static_cast<size_t>(alignment));
 }
 
 void operator delete(void* block) noexcept

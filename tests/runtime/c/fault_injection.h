@@ -11,7 +11,7 @@
 namespace hearth::test
 {
 
-/// Where a fault happens.
+/// Place of a fault.
 enum class FaultPlace : uint8_t
 {
     heap,   ///< operator new throws std::bad_alloc
@@ -50,7 +50,7 @@ public:
     CallerScope& operator=(const CallerScope&) = delete;
 };
 
-/// What the library has created within all scopes so far and not destroyed.
+/// Return what the library has created within all scopes so far and not destroyed.
 struct HeldResources
 {
     int64_t heap_blocks = 0;
