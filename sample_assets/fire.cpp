@@ -3,6 +3,7 @@
 
 #include "sample_assets/shapes/noise.h"
 #include "sample_assets/shapes/sample_math.h"
+#include "sample_assets/shapes/scene_parts.h"
 #include "sample_assets/shapes/shapes.h"
 #include "sample_assets/shapes/textures.h"
 
@@ -211,6 +212,29 @@ int addFlameMaterial(Document& document)
     material.alpha_cutoff = 0.5f;
     material.double_sided = true;
     return add(document.materials, material);
+}
+
+void addEmbers(Document& document)
+{
+    addPlaced(document, "embers", addMesh(document, "embers", makeEmberBed(), addEmberMaterial(document)),
+              {.scale = {1.25f, 1.0f, 1.25f}});
+}
+
+void addBurningLogs(Document& document)
+{
+    std::vector<Placement> logs;
+    constexpr uint32_t kLogs = 6;
+    for (uint32_t i = 0; i < kLogs; ++i)
+    {
+        const float angle = (static_cast<float>(i) + 0.5f * randomUnit(i, 631)) * 2 * kPi / kLogs;
+        const float length = 0.62f + 0.2f * randomUnit(i, 632);
+        const Float3 outwards = normalize({cosine(angle), 0.62f + 0.25f * randomUnit(i, 633), sine(angle)});
+        // the burning ends meet low over the embers, the cold ends stick out and up
+        const Float3 foot{-0.10f * outwards.x, 0.06f, -0.10f * outwards.z};
+        logs.push_back({foot, rotationBetween({0, 1, 0}, outwards), {length, length, length}});
+    }
+    addCopies(document, "logs",
+              addMesh(document, "burning_log", makeLog(0.075f, 5), addLogMaterial(document, true)), logs);
 }
 
 } // namespace hearth::samples

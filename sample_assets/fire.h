@@ -1,4 +1,4 @@
-// Generates a campfire: logs, embers and flames. The scene places the ring of stones.
+// Generates a campfire around the origin: logs, embers and flames. Scenes place the ring of stones.
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
@@ -17,6 +17,11 @@ int addLogMaterial(Document& document, bool burning);
 /// Make a shallow mound of coals, 0.5 m in radius.
 TriangleMesh makeEmberBed();
 int addEmberMaterial(Document& document);
+
+/// Add the glowing bed of the fire, and a root node for it.
+void addEmbers(Document& document);
+/// Add the logs that burn on it.
+void addBurningLogs(Document& document);
 
 /// Make crossed flame cards around +Y, about 0.8 m high.
 TriangleMesh makeFlames();

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #include "sample_assets/hearth_scene.h"
 
-#include "sample_assets/arrival.h"
-#include "sample_assets/character.h"
 #include "sample_assets/dusk.h"
 #include "sample_assets/fire.h"
 #include "sample_assets/grass.h"
+#include "sample_assets/people/arrival.h"
+#include "sample_assets/people/character.h"
 #include "sample_assets/rock.h"
 #include "sample_assets/shapes/noise.h"
 #include "sample_assets/shapes/sample_math.h"
+#include "sample_assets/shapes/scene_parts.h"
 #include "sample_assets/terrain.h"
 
 namespace hearth::samples
@@ -19,29 +20,6 @@ namespace
 
 constexpr float kClearingRadius = 3.2f;
 
-int addMesh(Document& document, const char* name, TriangleMesh mesh, int material)
-{
-    return add(document.meshes, Mesh{name, {{std::move(mesh), material}}});
-}
-
-void addNode(Document& document, const char* name, int mesh, const Placement& placement)
-{
-    Node node;
-    node.name = name;
-    node.mesh = mesh;
-    node.placement = placement;
-    addRoot(document, node);
-}
-
-void addInstances(Document& document, const char* name, int mesh, std::vector<Placement> instances)
-{
-    Node node;
-    node.name = name;
-    node.mesh = mesh;
-    node.instances = std::move(instances);
-    addRoot(document, node);
-}
-
 Float4 randomRotation(uint32_t index, uint32_t seed)
 {
     const Float4 about_y = rotationAbout({0, 1, 0}, randomUnit(index * 4, seed) * 2 * kPi);
@@ -51,14 +29,14 @@ Float4 randomRotation(uint32_t index, uint32_t seed)
 
 void addCampGround(Document& document, const HeightGrid& grid, uint32_t texture_size)
 {
-    addNode(document, "ground",
-            addMesh(document, "ground", makeTerrain(grid), addTerrainMaterial(document, grid, texture_size)),
-            {});
-    addNode(document, "hills",
-            addMesh(document, "hills", makeHills(14.0f, 180.0f, 384, 77), addDuskHillMaterial(document)), {});
-    addInstances(document, "grass",
-                 addMesh(document, "grass_tuft", makeGrassTuft(), addGrassMaterial(document)),
-                 scatterGrass(grid, 22000, kClearingRadius - 1.2f, 601));
+    addPlaced(
+        document, "ground",
+        addMesh(document, "ground", makeTerrain(grid), addTerrainMaterial(document, grid, texture_size)), {});
+    addPlaced(document, "hills",
+              addMesh(document, "hills", makeHills(14.0f, 180.0f, 384, 77), addDuskHillMaterial(document)),
+              {});
+    addCopies(document, "grass", addMesh(document, "grass_tuft", makeGrassTuft(), addGrassMaterial(document)),
+              scatterGrass(grid, 22000, kClearingRadius - 1.2f, 601));
 }
 
 struct BoulderPlacement
@@ -70,11 +48,11 @@ void addRocks(Document& document, const HeightGrid& grid, uint64_t hero_triangle
 {
     const int material = addRockMaterial(document, 1024);
     const auto sunk = [&](float x, float z, float depth) { return Float3{x, grid.at({x, z}) - depth, z}; };
-    addNode(document, "hero_rock",
-            addMesh(document, "hero_rock", makeRock(hero_triangles, 1, 4.0f), material),
-            {sunk(-1.5f, -4.7f, -1.05f),
-             multiply(rotationAbout({0, 1, 0}, 0.6f), rotationAbout({0, 0, 1}, 0.12f)),
-             {2.5f, 1.9f, 1.9f}});
+    addPlaced(document, "hero_rock",
+              addMesh(document, "hero_rock", makeRock(hero_triangles, 1, 4.0f), material),
+              {sunk(-1.5f, -4.7f, -1.05f),
+               multiply(rotationAbout({0, 1, 0}, 0.6f), rotationAbout({0, 0, 1}, 0.12f)),
+               {2.5f, 1.9f, 1.9f}});
 
     constexpr std::array kBoulders{BoulderPlacement{3.4f, -3.2f, 0.85f}, BoulderPlacement{4.6f, -4.4f, 1.3f},
                                    BoulderPlacement{-4.8f, -1.8f, 0.8f}, BoulderPlacement{-6.2f, -4.8f, 1.5f},
@@ -91,10 +69,10 @@ void addRocks(Document& document, const HeightGrid& grid, uint64_t hero_triangle
                                    randomRotation(index, 612),
                                    {boulder.scale, boulder.scale * flat, boulder.scale * 0.95f}});
     }
-    addInstances(document, "boulders_a", addMesh(document, "boulder_a", makeRock(50000, 2, 2.0f), material),
-                 of_shape[0]);
-    addInstances(document, "boulders_b", addMesh(document, "boulder_b", makeRock(50000, 3, 2.0f), material),
-                 of_shape[1]);
+    addCopies(document, "boulders_a", addMesh(document, "boulder_a", makeRock(50000, 2, 2.0f), material),
+              of_shape[0]);
+    addCopies(document, "boulders_b", addMesh(document, "boulder_b", makeRock(50000, 3, 2.0f), material),
+              of_shape[1]);
 
     std::vector<Placement> ring;
     constexpr uint32_t kRingStones = 14;
@@ -106,29 +84,8 @@ void addRocks(Document& document, const HeightGrid& grid, uint64_t hero_triangle
                         randomRotation(i, 624),
                         {scale * 1.15f, scale * 0.9f, scale}});
     }
-    addInstances(document, "hearth_stones",
-                 addMesh(document, "hearth_stone", makeRock(6000, 4, 1.0f), material), ring);
-}
-
-void addFire(Document& document)
-{
-    addNode(document, "embers", addMesh(document, "embers", makeEmberBed(), addEmberMaterial(document)),
-            {.scale = {1.25f, 1.0f, 1.25f}});
-    addNode(document, "flames", addMesh(document, "flames", makeFlames(), addFlameMaterial(document)),
-            {.translation = {0, 0.06f, 0}});
-    std::vector<Placement> logs;
-    constexpr uint32_t kLogs = 6;
-    for (uint32_t i = 0; i < kLogs; ++i)
-    {
-        const float angle = (static_cast<float>(i) + 0.5f * randomUnit(i, 631)) * 2 * kPi / kLogs;
-        const float length = 0.62f + 0.2f * randomUnit(i, 632);
-        const Float3 outwards = normalize({cosine(angle), 0.62f + 0.25f * randomUnit(i, 633), sine(angle)});
-        // the burning ends meet low over the embers, the cold ends stick out and up
-        const Float3 foot{-0.10f * outwards.x, 0.06f, -0.10f * outwards.z};
-        logs.push_back({foot, rotationBetween({0, 1, 0}, outwards), {length, length, length}});
-    }
-    addInstances(document, "logs",
-                 addMesh(document, "burning_log", makeLog(0.075f, 5), addLogMaterial(document, true)), logs);
+    addCopies(document, "hearth_stones", addMesh(document, "hearth_stone", makeRock(6000, 4, 1.0f), material),
+              ring);
 }
 
 void addSeatAndCharacter(Document& document)
@@ -138,8 +95,8 @@ void addSeatAndCharacter(Document& document)
     const Float3 to_fire = normalize(Float3{0, 0, 0} - Float3{seat.x, 0, seat.z});
     const Float3 along = cross({0, 1, 0}, to_fire);
     const float half = 0.85f;
-    addNode(document, "seat", log,
-            {seat - along * half, rotationBetween({0, 1, 0}, along), {1.6f, 2 * half, 1.6f}});
+    addPlaced(document, "seat", log,
+              {seat - along * half, rotationBetween({0, 1, 0}, along), {1.6f, 2 * half, 1.6f}});
     // the skin is halfway between standing and sitting, so that both look right
     const Pose sitting = sittingPose();
     const CharacterNodes guest =
@@ -151,15 +108,6 @@ void addSeatAndCharacter(Document& document)
     addArriveClip(document, guest, {stop - along * 3.0f, stop, place, to_fire});
 }
 
-void addLight(Document& document, Light light, const Placement& placement)
-{
-    Node node;
-    node.name = light.name;
-    node.light = add(document.lights, std::move(light));
-    node.placement = placement;
-    addRoot(document, node);
-}
-
 void addLights(Document& document)
 {
     // The sun is just above the hills in the back, the fire is the brightest thing nearby.
@@ -168,24 +116,14 @@ void addLights(Document& document)
               .kind = LightKind::directional,
               .color = {1.0f, 0.56f, 0.32f},
               .intensity = 0.75f},
-             {.rotation = rotationLookingAt(duskSunDirection(), {0, 0, 0})});
+             {0, 0, 0}, rotationLookingAt(duskSunDirection(), {0, 0, 0}));
     addLight(document,
              {.name = "fire",
               .kind = LightKind::point,
               .color = {1.0f, 0.43f, 0.13f},
               .intensity = 14,
               .range = 14},
-             {.translation = {0, 0.55f, 0}});
-}
-
-void addHearthCamera(Document& document)
-{
-    const Float3 eye{2.7f, 1.15f, 4.9f};
-    Node node;
-    node.name = "hearth";
-    node.camera = add(document.cameras, Camera{.name = "hearth", .y_fov_rad = 0.72f, .z_near = 0.05f});
-    node.placement = {eye, rotationLookingAt(eye, {-0.35f, 1.05f, -0.4f}), {1, 1, 1}};
-    addRoot(document, node);
+             {0, 0.55f, 0}, {0, 0, 0, 1});
 }
 
 } // namespace
@@ -197,10 +135,14 @@ Document makeHearthScene(uint64_t hero_triangles, uint32_t texture_size)
         makeHeights({.size = 32, .cells = 256, .clearing_radius = kClearingRadius, .seed = 8});
     addCampGround(document, grid, texture_size);
     addRocks(document, grid, hero_triangles);
-    addFire(document);
+    addEmbers(document);
+    addPlaced(document, "flames", addMesh(document, "flames", makeFlames(), addFlameMaterial(document)),
+              {.translation = {0, 0.06f, 0}});
+    addBurningLogs(document);
     addSeatAndCharacter(document);
     addLights(document);
-    addHearthCamera(document);
+    addCamera(document, {.name = "hearth", .y_fov_rad = 0.72f, .z_near = 0.05f}, {2.7f, 1.15f, 4.9f},
+              {-0.35f, 1.05f, -0.4f});
     addDuskSky(document, 400);
     dimReflectance(document);
     return document;

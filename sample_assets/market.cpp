@@ -8,7 +8,7 @@
 #include "sample_assets/market/stalls.h"
 #include "sample_assets/market/street.h"
 #include "sample_assets/market/surroundings.h"
-#include "sample_assets/market_people.h"
+#include "sample_assets/people/market_people.h"
 #include "sample_assets/shapes/scene_parts.h"
 #include "sample_assets/sky.h"
 

@@ -2,7 +2,7 @@
 #include "sample_assets/samples.h"
 
 #include "sample_assets/attic.h"
-#include "sample_assets/character.h"
+#include "sample_assets/camp.h"
 #include "sample_assets/field.h"
 #include "sample_assets/gallery.h"
 #include "sample_assets/grass.h"
@@ -10,6 +10,7 @@
 #include "sample_assets/land.h"
 #include "sample_assets/market.h"
 #include "sample_assets/outdoor.h"
+#include "sample_assets/people/character.h"
 #include "sample_assets/rock.h"
 #include "sample_assets/room.h"
 #include "sample_assets/shapes/noise.h"
@@ -161,6 +162,11 @@ Document generateLand(const SampleOptions& options)
     return makeLand(trianglesOr(options, 2000000), textureSizeOr(options, 2048));
 }
 
+Document generateCamp(const SampleOptions& options)
+{
+    return makeCamp(trianglesOr(options, 80000), textureSizeOr(options, 1024));
+}
+
 Document generateMarket(const SampleOptions& options)
 {
     return makeMarket(options.lights ? options.lights : 192);
@@ -191,6 +197,9 @@ constexpr std::array kKinds{
     SampleKind{"field", "the benchmark: 40 rocks of 2 million triangles, 4096 tiles of ground, 10,000 tufts",
                generateField},
     SampleKind{"rocks", "the field with no two rocks alike: 84 million triangles to cook", generateRocks},
+    SampleKind{"camp",
+               "the sample game's world: a fire between rocks, lamps, a character that walks and runs",
+               generateCamp},
     SampleKind{"land",
                "512 m of hills, 2 million triangles, with 120 rocks and 12 houses: to be lit by bricks",
                generateLand},

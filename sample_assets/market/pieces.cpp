@@ -89,22 +89,6 @@ TriangleMesh tinted(TriangleMesh mesh, Float3 color)
     return mesh;
 }
 
-int addMesh(Document& document, const char* name, TriangleMesh mesh, int material)
-{
-    return add(document.meshes, Mesh{name, {{std::move(mesh), material}}});
-}
-
-void addCopies(Document& document, const char* name, int mesh, std::vector<Placement> placements)
-{
-    if (placements.empty())
-        return;
-    Node node;
-    node.name = name;
-    node.mesh = mesh;
-    node.instances = std::move(placements);
-    addRoot(document, node);
-}
-
 Placement standing(Float3 position, float heading_rad, float scale)
 {
     return {position, rotationAbout({0, 1, 0}, heading_rad), {scale, scale, scale}};

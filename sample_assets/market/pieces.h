@@ -36,12 +36,6 @@ TriangleMesh moved(TriangleMesh mesh, Float3 by);
 /// Return the mesh with one linear colour at all vertices.
 TriangleMesh tinted(TriangleMesh mesh, Float3 color);
 
-/// Add a mesh of one primitive and return its index.
-int addMesh(Document& document, const char* name, TriangleMesh mesh, int material);
-
-/// Add a root node that draws a copy of the mesh at each placement; none if there are no placements.
-void addCopies(Document& document, const char* name, int mesh, std::vector<Placement> placements);
-
 /// Return a placement at `position`, turned about +Y so that +Z looks along (sin, 0, cos) of the heading.
 Placement standing(Float3 position, float heading_rad, float scale = 1);
 

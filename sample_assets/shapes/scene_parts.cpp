@@ -32,6 +32,31 @@ void addObject(Document& document, const char* name, std::vector<Primitive> prim
     addRoot(document, node);
 }
 
+int addMesh(Document& document, const char* name, TriangleMesh mesh, int material)
+{
+    return add(document.meshes, Mesh{name, {{std::move(mesh), material}}});
+}
+
+void addPlaced(Document& document, const char* name, int mesh, const Placement& placement)
+{
+    Node node;
+    node.name = name;
+    node.mesh = mesh;
+    node.placement = placement;
+    addRoot(document, node);
+}
+
+void addCopies(Document& document, const char* name, int mesh, std::vector<Placement> placements)
+{
+    if (placements.empty())
+        return;
+    Node node;
+    node.name = name;
+    node.mesh = mesh;
+    node.instances = std::move(placements);
+    addRoot(document, node);
+}
+
 void addLight(Document& document, Light light, Float3 position, Float4 rotation)
 {
     Node node;

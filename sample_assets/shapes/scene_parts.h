@@ -20,6 +20,15 @@ int addEmissiveMaterial(Document& document, const char* name, Float3 color, floa
 /// Add a mesh, and a root node for it.
 void addObject(Document& document, const char* name, std::vector<Primitive> primitives);
 
+/// Add a mesh of one primitive and return its index.
+int addMesh(Document& document, const char* name, TriangleMesh mesh, int material);
+
+/// Add a root node that draws the mesh at a placement.
+void addPlaced(Document& document, const char* name, int mesh, const Placement& placement);
+
+/// Add a root node that draws a copy of the mesh at each placement; none if there are no placements.
+void addCopies(Document& document, const char* name, int mesh, std::vector<Placement> placements);
+
 /// Add a light, and a root node for it, of the light's name.
 /// rotation  unit quaternion; the light shines along its -Z axis
 void addLight(Document& document, Light light, Float3 position, Float4 rotation);

@@ -258,9 +258,14 @@ const std::vector<Layer>& layers()
         {"runtime/viewer/window",
          {"formats", "runtime/frame", "runtime/pack", "runtime/gpu", "runtime/viewer"}},
 
+        {"runtime/sample_game", {}}, // on installed headers alone
+
         {"sample_assets/shapes", {"formats", "cook/json"}},
         {"sample_assets/market", {"formats", "sample_assets/shapes"}},
-        {"sample_assets", {"formats", "cook/command_line", "sample_assets/shapes", "sample_assets/market"}},
+        {"sample_assets/people", {"sample_assets/shapes", "sample_assets/market"}},
+        {"sample_assets",
+         {"formats", "cook/command_line", "sample_assets/shapes", "sample_assets/market",
+          "sample_assets/people"}},
     };
     return list;
 }
@@ -282,14 +287,15 @@ const std::vector<Library>& libraries()
          {"formats/", "cook/clusters/", "cook/pages/", // pages are compressed in parallel
           "pipelines/texture_files/"}},
         {"vulkan/", {"runtime/gpu/", "runtime/c/", "runtime/viewer/"}, true},
-        {"SDL.h", {"runtime/viewer/window/"}},
-        {"SDL_vulkan.h", {"runtime/viewer/window/"}},
-        {"imgui.h", {"runtime/viewer/window/"}},
-        {"backends/", {"runtime/viewer/window/"}}, // Dear ImGui's, for SDL and Vulkan
-        {"stddef.h", {"runtime/c/"}, true},        // hearth.h is C
+        {"SDL.h", {"runtime/viewer/window/", "runtime/sample_game/"}},
+        {"SDL_vulkan.h", {"runtime/viewer/window/", "runtime/sample_game/"}},
+        {"imgui.h", {"runtime/viewer/window/", "runtime/sample_game/"}},
+        {"backends/", {"runtime/viewer/window/", "runtime/sample_game/"}}, // Dear ImGui's, for SDL and Vulkan
+        {"stddef.h", {"runtime/c/"}, true},                                // hearth.h is C
         {"stdint.h", {"runtime/c/"}, true},
         {"png.h",
-         {"pipelines/import/images/", "cook/tools/", "runtime/viewer/compare/", "sample_assets/shapes/"}},
+         {"pipelines/import/images/", "cook/tools/", "runtime/viewer/compare/", "sample_assets/shapes/",
+          "runtime/sample_game/"}},
         {"zlib.h", {"pipelines/import/images/", "pipelines/texture_files/"}},
         {"jpeglib.h", {"pipelines/import/"}},
         {"jerror.h", {"pipelines/import/"}},
@@ -310,9 +316,9 @@ const std::vector<Library>& libraries()
         {"Eigen/", {"cook/"}, true},
         {"ceres/", {"cook/"}},
         {"formats/", {}}, // in angle brackets, as users include the installed headers; so is the next
-        {"hearth.hpp", {}},
-        {"hearth_test_functions_material_shaders.h", {}}, // made by the build, like the next one
-        {"materials_material_shaders.h", {}},
+        {"hearth.hpp", {"runtime/sample_game/"}, true},
+        {"hearth_test_functions_material_shaders.h", {}, true}, // made by the build, like the next one
+        {"materials_material_shaders.h", {}, true},
         {"gtest/", {}, true},
         {"gmock/", {}, true},
         {"benchmark/", {}, true},

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "sample_assets/character.h"
+#include "sample_assets/people/character.h"
 
 #include "sample_assets/shapes/sample_math.h"
 #include "sample_assets/shapes/surface_nets.h"
+
+#include <functional>
+#include <span>
 
 namespace hearth::samples
 {
@@ -250,6 +253,77 @@ std::vector<float> evenTimes(size_t count, float duration)
     return times;
 }
 
+/// Clip of a loop in which a character stays where it is.
+struct Gait
+{
+    const char* name;
+    float seconds;
+    std::span<const Joint> moved; ///< joints that turn; the hips move, too
+};
+
+/// Add the clip of a gait: linear rotations, the path of the hips is a cubic spline.
+/// pose_at  pose by the share of the loop, 0 to 1
+void addGaitClip(Document& document, const CharacterNodes& nodes, const Gait& gait,
+                 const std::function<Pose(float)>& pose_at)
+{
+    Animation clip;
+    clip.name = gait.name;
+    const std::vector<float> shares = evenTimes(9, 1.0f), times = evenTimes(9, gait.seconds);
+    std::vector<Pose> poses;
+    for (const float share : shares)
+        poses.push_back(pose_at(share));
+    for (const Joint joint : gait.moved)
+    {
+        std::vector<Float4> keys;
+        for (const Pose& key : poses)
+            keys.push_back(key.rotations[joint]);
+        clip.tracks.push_back(rotationTrack(nodes.joints[joint], times, keys));
+    }
+    std::vector<Float4> way;
+    for (const Pose& key : poses)
+        way.push_back({key.hips.x, key.hips.y, key.hips.z, 0});
+    clip.tracks.push_back({nodes.joints[kHips], TrackPath::translation, TrackKind::cubic_spline, times,
+                           withTangents(times, way)});
+    document.animations.push_back(clip);
+}
+
+/// Return a pose of standing still: the chest breathes, the head looks around a little.
+Pose breathingPose(const Pose& standing, float cycle)
+{
+    Pose pose = standing;
+    const float breath = sine(cycle * 4 * kPi), look = sine(cycle * 2 * kPi);
+    const auto turn = [&](Joint joint, Float4 rotation)
+    { pose.rotations[joint] = multiply(rotation, standing.rotations[joint]); };
+    turn(kChest, rotationAboutX(1.2f * breath));
+    turn(kHead, multiply(rotationAboutY(9 * look), rotationAboutX(-1.2f * breath)));
+    turn(kLeftUpperArm, rotationAboutZ(1.2f * breath));
+    turn(kRightUpperArm, rotationAboutZ(-1.2f * breath));
+    pose.hips = standing.hips + Float3{0.008f * look, 0, 0};
+    return pose;
+}
+
+/// Return a pose of running on the spot; share of the cycle: 0 to 1.
+Pose runningPose(const Pose& standing, float cycle)
+{
+    Pose pose = standing;
+    const float a = cycle * 2 * kPi;
+    const auto swing = [&](Joint joint, Float4 rotation)
+    { pose.rotations[joint] = multiply(rotation, standing.rotations[joint]); };
+    for (const bool left : {true, false})
+    {
+        const float phase = left ? a : a + kPi, side = left ? -1.0f : 1.0f;
+        swing(left ? kLeftThigh : kRightThigh, rotationAboutX(-40 * sine(phase) - 16));
+        swing(left ? kLeftShin : kRightShin, rotationAboutX(52 + 42 * sine(phase + 2.3f)));
+        swing(left ? kLeftFoot : kRightFoot, rotationAboutX(4 + 14 * sine(phase + 2.6f)));
+        swing(left ? kLeftUpperArm : kRightUpperArm, rotationAboutX(36 * sine(phase) + 10));
+        swing(left ? kLeftForearm : kRightForearm, rotationAboutY(side * 62));
+    }
+    swing(kSpine, rotationAboutX(9));
+    swing(kChest, multiply(rotationAboutX(5), rotationAboutY(9 * sine(a))));
+    pose.hips = standing.hips + Float3{0.02f * sine(a), -0.03f + 0.035f * cosine(2 * a), 0};
+    return pose;
+}
+
 } // namespace
 
 Pose standingPose()
@@ -352,26 +426,26 @@ CharacterNodes addCharacter(Document& document, const Pose& rest, const Pose& bi
 
 void addWalkClip(Document& document, const CharacterNodes& nodes, const Pose& pose)
 {
-    Animation walk;
-    walk.name = "walk";
-    const std::vector<float> times = evenTimes(9, 1.0f);
-    std::vector<Pose> poses;
-    for (const float time : times)
-        poses.push_back(walkingPose(pose, time));
-    for (const Joint joint : {kLeftThigh, kLeftShin, kLeftFoot, kLeftUpperArm, kRightThigh, kRightShin,
-                              kRightFoot, kRightUpperArm, kChest})
-    {
-        std::vector<Float4> keys;
-        for (const Pose& key : poses)
-            keys.push_back(key.rotations[joint]);
-        walk.tracks.push_back(rotationTrack(nodes.joints[joint], times, keys));
-    }
-    std::vector<Float4> way;
-    for (const Pose& key : poses)
-        way.push_back({key.hips.x, key.hips.y, key.hips.z, 0});
-    walk.tracks.push_back({nodes.joints[kHips], TrackPath::translation, TrackKind::cubic_spline, times,
-                           withTangents(times, way)});
-    document.animations.push_back(walk);
+    constexpr std::array kMoved{kLeftThigh, kLeftShin,  kLeftFoot,      kLeftUpperArm, kRightThigh,
+                                kRightShin, kRightFoot, kRightUpperArm, kChest};
+    addGaitClip(document, nodes, {"walk", 1.0f, kMoved},
+                [&](float cycle) { return walkingPose(pose, cycle); });
+}
+
+void addIdleClip(Document& document, const CharacterNodes& nodes, const Pose& pose)
+{
+    constexpr std::array kMoved{kChest, kHead, kLeftUpperArm, kRightUpperArm};
+    addGaitClip(document, nodes, {"idle", 5.0f, kMoved},
+                [&](float cycle) { return breathingPose(pose, cycle); });
+}
+
+void addRunClip(Document& document, const CharacterNodes& nodes, const Pose& pose)
+{
+    constexpr std::array kMoved{kLeftThigh,     kLeftShin,     kLeftFoot,  kLeftUpperArm,
+                                kLeftForearm,   kRightThigh,   kRightShin, kRightFoot,
+                                kRightUpperArm, kRightForearm, kSpine,     kChest};
+    addGaitClip(document, nodes, {"run", 0.7f, kMoved},
+                [&](float cycle) { return runningPose(pose, cycle); });
 }
 
 void addWaveClip(Document& document, const CharacterNodes& nodes, const Pose& pose)

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
 #pragma once
 
-#include "sample_assets/character.h"
+#include "sample_assets/people/character.h"
 
 namespace hearth::samples
 {

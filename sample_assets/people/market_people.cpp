@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "sample_assets/market_people.h"
+#include "sample_assets/people/market_people.h"
 
-#include "sample_assets/character.h"
 #include "sample_assets/market/evening.h"
 #include "sample_assets/market/pieces.h"
 #include "sample_assets/market/street.h"
+#include "sample_assets/people/character.h"
 #include "sample_assets/shapes/noise.h"
 #include "sample_assets/shapes/sample_math.h"
+#include "sample_assets/shapes/scene_parts.h"
 
 namespace hearth::samples
 {
@@ -135,8 +136,7 @@ void addCrowd(Document& document, const market::Plan& plan)
                 if (person.pose == pose && person.dye == dye)
                     placements.push_back(person.placement);
             if (!placements.empty())
-                market::addCopies(document, "people", market::addMesh(document, "person", statue, cloth),
-                                  placements);
+                addCopies(document, "people", addMesh(document, "person", statue, cloth), placements);
         }
 }
 

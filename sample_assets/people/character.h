@@ -62,6 +62,10 @@ CharacterNodes addCharacter(Document& document, const Pose& rest, const Pose& bi
 
 /// Add one second of walking on the spot; linear rotations, the path of the hips is a cubic spline.
 void addWalkClip(Document& document, const CharacterNodes& nodes, const Pose& pose);
+/// Add five seconds of standing and breathing.
+void addIdleClip(Document& document, const CharacterNodes& nodes, const Pose& pose);
+/// Add 0.7 seconds of running on the spot, as the walk.
+void addRunClip(Document& document, const CharacterNodes& nodes, const Pose& pose);
 /// Add two seconds of waving with the right arm; cubic-spline rotations.
 void addWaveClip(Document& document, const CharacterNodes& nodes, const Pose& pose);
 

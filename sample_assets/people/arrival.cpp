@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: LicenseRef-Hearth-Undecided
-#include "sample_assets/arrival.h"
+#include "sample_assets/people/arrival.h"
 
 #include "sample_assets/shapes/sample_math.h"
 
