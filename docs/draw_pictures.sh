@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Draws the pictures of README and docs, from samples alone. ./dev pictures builds what it needs and calls it.
 # Plots of benchmarks are taken from build/bench, where a benchmark has left them.
-#   docs/draw_pictures.sh [NAME...]    demo, walk, levels, occlusion, bricks, shadows, lights, lamps, view, report, bench, plots
+#   docs/draw_pictures.sh [NAME...]    demo, walk, levels, occlusion, bricks, shadows, lights, lamps, game, view, report, bench, plots
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 bin=build/release/bin
@@ -27,6 +27,12 @@ draw_demo() {
   cooked demo scene --bricks --voxel-size 0.25 --brick-memory 10M
   draw demo demo --scene-camera 0 --size 1280x720 --samples 16
   convert "$work/demo.png" -resize 880x -strip docs/demo.png
+}
+
+# The sample game at noon, at dusk and at night.
+draw_game() {
+  ./dev game --replay runtime/sample_game/camp.inputs --frames 61 --every 20 --size 640x400 -o "$work/game"
+  beside game 1200 "$work"/game/00{00,40,60}.png
 }
 
 draw_walk() {

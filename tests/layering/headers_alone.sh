@@ -39,6 +39,7 @@ standard_paths() {
 } >"$work/headers.modulemap"
 
 echo "#include \"${headers[0]}\"" >"$work/all.cpp"
-"$compiler" -std=c++20 -I"$root" -Wall -Wextra -Werror -fsyntax-only -ferror-limit=0 \
+# hearth.hpp is found as users of the installation find it
+"$compiler" -std=c++20 -I"$root" -I"$root/runtime/c" -Wall -Wextra -Werror -fsyntax-only -ferror-limit=0 \
   -fmodules -fmodules-cache-path="$work/cache" -fmodule-map-file="$work/headers.modulemap" "$work/all.cpp"
 echo "${#headers[@]} headers compile alone"
