@@ -92,9 +92,9 @@ struct MotionPush
     /// Of its view; w: its shift, which the rows of an orthographic view leave out, less that of this frame, in
     /// halves of the image's width.
     Float4 clip_x;
-    Float4 clip_y; ///< w: the same downwards, in halves of its height
-    Float4 clip_w; ///< w: 1 for an orthographic view, else 0
-    Float3 eye;    ///< world
+    Float4 clip_y;       ///< w: the same downwards, in halves of its height
+    Float4 clip_w;       ///< w: 1 for an orthographic view, else 0
+    Float3 eye;          ///< world
     uint first_instance; ///< row of its instance 0
     uint pose_rows;      ///< from the rows of a pose to those that it had
     uint reserved0;

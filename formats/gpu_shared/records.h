@@ -208,9 +208,9 @@ struct FrameView
     uint instance_count;
     float width; ///< pixels
     float height;
-    float corner_cosine; ///< of the angle between the view's axis and a corner of the image, or less
-    float depth_scale;   ///< of an orthographic view, 1 / (z_far - z_near); else 0
-    Float4 lod_curve[8]; ///< from distance x on the factor goes from y to z, with slope w per metre
+    float corner_cosine;    ///< of the angle between the view's axis and a corner of the image, or less
+    float depth_scale;      ///< of an orthographic view, 1 / (z_far - z_near); else 0
+    Float4 lod_curve[8];    ///< from distance x on the factor goes from y to z, with slope w per metre
     Float4 material_inputs; ///< of the game, for its material functions
 };
 

@@ -160,19 +160,18 @@ Result<std::unique_ptr<hearth_renderer>> create(const hearth_renderer_descriptio
     }
     HEARTH_ASSIGN_OR_RETURN(
         made->renderer,
-        gpu::Renderer::create(toDevice(description, made->memory),
-                              {.way = toFrameWay(description.frame_way),
-                               .materials = static_cast<gpu::MaterialTest>(description.materials),
-                               .post = toPostSupport(description.features),
-                               .deferred = (description.features & HEARTH_FEATURE_DEFERRED) != 0,
-                               .keeps_depth = (description.features & HEARTH_FEATURE_DEPTH) != 0,
-                               .receiver_update = (description.features & HEARTH_FEATURE_RECEIVER_POINTS) != 0
-                                                      ? gpu::ReceiverUpdate::points
-                                                      : gpu::ReceiverUpdate::compute,
-                               .material_shaders = description.material_shaders != nullptr
-                                                       ? &made->material_shaders
-                                                       : nullptr,
-                               .color_format = colorFormat(description)}));
+        gpu::Renderer::create(
+            toDevice(description, made->memory),
+            {.way = toFrameWay(description.frame_way),
+             .materials = static_cast<gpu::MaterialTest>(description.materials),
+             .post = toPostSupport(description.features),
+             .deferred = (description.features & HEARTH_FEATURE_DEFERRED) != 0,
+             .keeps_depth = (description.features & HEARTH_FEATURE_DEPTH) != 0,
+             .receiver_update = (description.features & HEARTH_FEATURE_RECEIVER_POINTS) != 0
+                                    ? gpu::ReceiverUpdate::points
+                                    : gpu::ReceiverUpdate::compute,
+             .material_shaders = description.material_shaders != nullptr ? &made->material_shaders : nullptr,
+             .color_format = colorFormat(description)}));
     made->shows_overdraw = (description.features & HEARTH_FEATURE_OVERDRAW) != 0;
     if (made->shows_overdraw)
         HEARTH_TRY(made->renderer->prepareOverdraw());

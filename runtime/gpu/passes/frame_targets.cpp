@@ -77,8 +77,9 @@ Status FrameTargets::createMotion(const Device& device, const DrawLayouts& layou
     }
     if (!is_filtered)
         return success();
-    HEARTH_ASSERT(color_.extent.width == extent_.width && color_.extent.height == extent_.height);
-    HEARTH_ASSIGN_OR_RETURN(temporal_, TemporalTargets::create(device, layouts, arena_, *motion_, color_));
+    HEARTH_ASSERT(options_.colors.images.empty() && color().extent.width == extent_.width &&
+                  color().extent.height == extent_.height);
+    HEARTH_ASSIGN_OR_RETURN(temporal_, TemporalTargets::create(device, layouts, arena_, *motion_, color()));
     return success();
 }
 

@@ -149,8 +149,7 @@ void ShadingPass::setStencil(const Device& device, VkCommandBuffer commands, uin
 
 Result<ShadingPass> ShadingPass::create(const Device& device, const DrawLayouts& layouts,
                                         const FramePasses& passes, ShadedOutput output,
-                                        const StoredColor& color,
-                                        const MaterialShaders* functions)
+                                        const StoredColor& color, const MaterialShaders* functions)
 {
     ShadingPass pass;
     pass.functions_ = functions;

@@ -151,7 +151,8 @@ protected:
     void uploadDeformed(gpu::Renderer& recorded)
     {
         const DeformedScene deformed({.rings = 8}, 1);
-        const auto scene = uploadWith(recorded, deformed.pack(), {.shadows = {.max_maps = 4}, .keeps_motion = true});
+        const auto scene =
+            uploadWith(recorded, deformed.pack(), {.shadows = {.max_maps = 4}, .keeps_motion = true});
         prepareLights(recorded, *scene);
         EXPECT_TRUE(gpu::CullStatisticsPass::create(recorded.device(), *scene).ok());
         EXPECT_TRUE(gpu::PickPass::create(recorded.device(), recorded.layouts(), *scene).ok());
