@@ -68,20 +68,25 @@ HEARTH_FUNCTION bool isOrthographic(HEARTH_IN(FrameView) view)
     return view.depth_scale > 0.0f;
 }
 
-/// Return the clip-space position of a point relative to the eye.
+/// Return the clip-space position of a point relative to the eye. Selects and does not branch, like all that
+/// drawing does by isOrthographic: lavapipe compiles a shader anew for each draw if a branch of it depends on
+/// a uniform block alone.
 HEARTH_FUNCTION Float4 clipPosition(HEARTH_IN(FrameView) view, Float3 relative)
 {
     HEARTH_PRECISE float x = dot3(row3(view.clip_x), relative);
     HEARTH_PRECISE float y = dot3(row3(view.clip_y), relative);
     HEARTH_PRECISE float w = dot3(row3(view.clip_w), relative);
-    if (isOrthographic(view))
-    {
-        HEARTH_PRECISE float shifted_x = x + view.clip_x.w;
-        HEARTH_PRECISE float shifted_y = y + view.clip_y.w;
-        HEARTH_PRECISE float depth = (view.clip_w.w - w) * view.depth_scale;
-        return Float4(shifted_x, shifted_y, depth, 1.0f);
-    }
-    return Float4(x, y, view.z_near, w);
+    HEARTH_PRECISE float shifted_x = x + view.clip_x.w;
+    HEARTH_PRECISE float shifted_y = y + view.clip_y.w;
+    HEARTH_PRECISE float depth = (view.clip_w.w - w) * view.depth_scale;
+    bool parallel = isOrthographic(view);
+    float z_near = view.z_near;
+    float one = 1.0f;
+    float clip_x = parallel ? shifted_x : x;
+    float clip_y = parallel ? shifted_y : y;
+    float clip_z = parallel ? depth : z_near;
+    float clip_w = parallel ? one : w;
+    return Float4(clip_x, clip_y, clip_z, clip_w);
 }
 
 /// Box along the world axes, relative to the eye.

@@ -13,7 +13,7 @@ float loadDepth() { return subpassLoad(stored_depth).x; }
 vec3 pixelPosition(vec2 pixel, float depth)
 {
     PixelRay ray = pixelRay(pixel);
-    if (isOrthographic(view))
-        return ray.origin + ray.along * (view.clip_w.w - depth / view.depth_scale);
-    return ray.along * (view.z_near / depth);
+    vec3 parallel = ray.origin + ray.along * (view.clip_w.w - depth / view.depth_scale);
+    vec3 position = ray.along * (view.z_near / depth);
+    return mix(position, parallel, bvec3(isOrthographic(view))); // selects, as clipPosition
 }

@@ -23,7 +23,7 @@ bool loadSurface(out PlacedSurface surface)
     if (!isSurface(texel))
         return false;
 #ifdef HEARTH_ENCODED_DEPTH
-    float depth = isOrthographic(view) ? (view.clip_w.w - texel.x) * view.depth_scale : view.z_near / texel.x;
+    float depth = mix(view.z_near / texel.x, (view.clip_w.w - texel.x) * view.depth_scale, isOrthographic(view));
 #else
     float depth = loadDepth();
 #endif
@@ -33,7 +33,7 @@ bool loadSurface(out PlacedSurface surface)
     surface = placedSurface(lit, pixelPosition(gl_FragCoord.xy, depth));
 #ifdef HEARTH_JOINED_SUMS
     // the most that the level of detail allows
-    float distance = isOrthographic(view) ? 1.0 : length(surface.position);
+    float distance = mix(length(surface.position), 1.0, isOrthographic(view));
     surface.error = max(view.threshold, 0.0) * distance / (view.lod_scale * lodFactor(view, distance));
 #endif
     return true;

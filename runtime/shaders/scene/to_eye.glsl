@@ -8,7 +8,8 @@
 // Vector from a point, relative to the eye, back to where its ray begins: the eye, or the plane across it.
 vec3 toEye(vec3 position)
 {
-    return isOrthographic(view) ? view.clip_w.xyz * -dot(view.clip_w.xyz, position) : -position;
+    vec3 along = view.clip_w.xyz * -dot(view.clip_w.xyz, position);
+    return mix(-position, along, bvec3(isOrthographic(view))); // selects, as clipPosition
 }
 
 #endif

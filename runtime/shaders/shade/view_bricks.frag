@@ -46,7 +46,7 @@ void main()
         {
             float facing = 0.35 + 0.65 * abs(dot(brickFaceAxis(ray.face), direction));
             vec3 place = ray.start + ray.direction * ray.t;
-            float distance = isOrthographic(view) ? 1.0 : brickDistance(grid, ray);
+            float distance = mix(brickDistance(grid, ray), 1.0, isOrthographic(view));
             float pixel_voxels = distance / (view.lod_scale * grid.voxel_size);
             color = (brickAlbedoAt(face) * facing + brickEmissionAt(face)) * (1.0 - 0.5 * edgeWeight(place, ray.face, pixel_voxels));
         }

@@ -29,7 +29,7 @@ void main()
                       dot(lighting.grid.forward, position));
     CellLight light = makeCellLight(lighting.grid, lights[light_row]);
     // shading finds the point by its triangle: at grazing angles the depth is off by more than the slack
-    light.slack += (isOrthographic(view) ? slope / view.depth_scale : length(position) * slope / depth) * kRoundedPixels;
+    light.slack += mix(length(position) * slope / depth, slope / view.depth_scale, isOrthographic(view)) * kRoundedPixels;
     if (!mayReachPoint(light, place))
         discard;
     vec4 bit = unpackUnorm4x8(1u << (light_place & 31u));
