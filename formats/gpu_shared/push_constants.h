@@ -89,8 +89,8 @@ HEARTH_CONSTANT float kMaxMotionDistance = 65504.0f;
 /// Motion vectors: the frame before with the same targets.
 struct MotionPush
 {
-    /// Of its view; w: its shift, which the rows of an orthographic view leave out, less that of this frame, in
-    /// halves of the image's width.
+    /// Row of its view; w: its shift, unless the row has it (not of orthographic views), less that of this
+    /// frame, in halves of the image's width.
     Float4 clip_x;
     Float4 clip_y;       ///< w: the same downwards, in halves of its height
     Float4 clip_w;       ///< w: 1 for an orthographic view, else 0

@@ -65,7 +65,7 @@ Surface resolveSurface(uint id, vec2 pixel)
     s.weights = weights / (weights.x + weights.y + weights.z);
     s.position = s.corners[0] * s.weights.x + s.corners[1] * s.weights.y + s.corners[2] * s.weights.z;
     float distance_w = w[0] * s.weights.x + w[1] * s.weights.y + w[2] * s.weights.z;
-    s.distance_w = mix(distance_w, dot(view.clip_w.xyz, s.position), isOrthographic(view)); // selects, as clipPosition
+    s.distance_w = mix(distance_w, dot(view.clip_w.xyz, s.position), isOrthographic(view)); // as clipPosition
     s.mirrored = isMirrored(s.instance);
     // y points down, so a counter-clockwise triangle has a negative area
     s.front = (sum < 0.0) != s.mirrored;
